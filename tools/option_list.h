@@ -49,7 +49,8 @@ public:
     ~OptionList();
 
     // Value: std::string, double, int, std::int64_t, std::uint64_t, std::optional of these numbers, or a list of strings; it stays as it is where the
-    // option is not given. A text that is empty, as a shell's variable is that was never set, is refused. A name without a dash is that of the next argument which is no option.
+    // option is not given. A text that is empty, as a shell's variable is that was never set, is refused. A name without a dash is that of the next
+    // argument which is no option.
     template <class Value> OptionEntry add(const std::string& name, Value& value, const std::string& help);
     OptionEntry add_flag(const std::string& name, bool& value, const std::string& help);
     OptionEntry add_flag(const std::string& name, std::function<void()> when_given, const std::string& help);

@@ -1,6 +1,7 @@
 #include "placed_import.h"
 #include "formats/error.h"
 #include "formats/plain_text.h"
+#include "lib/model/check_parts.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,8 +14,7 @@ constexpr double floats = 0.5, floats_of_extent = 0.05; // [m]; [1]: stems of on
 constexpr double tallest = 120, lowest = 0.1;           // [m]
 constexpr double given_tallest = 10 * tallest;
 constexpr const char* right = "; are its coordinates, or --units, right?";
-constexpr double farthest = 1e15,
-                 smallest = 1e-30; // [m]: what a document may hold, and what an inertia does not vanish by
+constexpr double smallest = 1e-30; // [m] an inertia goes with the fifth power of a length, and does not vanish
 constexpr double far = 100;        // of the median distance: trees stay below it, a neuron's axon below aloof
 
 struct Oddness {
@@ -159,8 +159,9 @@ void refuse_too_far(const Splines& s, double reach, const std::string& name) {
     const Box box = box_of(s.point);
     reach = std::max({reach, box.high.cwiseAbs().maxCoeff(), box.low.cwiseAbs().maxCoeff()});
     for (const double r : s.radius) reach = std::max(reach, r);
-    if (reach > farthest)
-        throw InputError(name, "reaches " + shown(reach) + " m, expected at most " + shown(farthest) + " m" + right);
+    if (reach > largest_length)
+        throw InputError(name,
+                         "reaches " + shown(reach) + " m, expected at most " + shown(largest_length) + " m" + right);
 }
 
 void refuse_too_small(const Splines& s, const std::string& name) {

@@ -9,6 +9,7 @@
 // tells its branches apart by that alone.
 // Left out: AO, Blend, wind.
 #pragma once
+#include "lib/model/check_parts.h"
 #include "speedtree_surface.h"
 #include "speedtree_xml.h"
 #include <Eigen/Geometry>
@@ -16,7 +17,7 @@
 
 namespace bough::speedtree {
 
-constexpr double farthest = 1e15; // [m] as for skeletons (placed_import.h)
+constexpr double farthest = largest_length; // [m] as for skeletons (placed_import.h)
 
 struct Map {
     std::string name;            // "Color", "Opacity", "Normal", "Gloss" ...

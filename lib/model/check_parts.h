@@ -7,7 +7,7 @@
 namespace bough {
 
 std::optional<Defect> finite(std::string_view field, const Vec3&);
-// [m], [m/s] Of places, sizes and velocities: meshes are written in floats, which a chain of bodies of this length still fits into.
+// [m], [m/s], [m/s^2] Of places, sizes, velocities and gravity: meshes are written in floats, which a chain of bodies of this length still fits into.
 constexpr double largest_length = 1e15;
 std::optional<Defect> not_too_far(std::string_view field, const Vec3&);
 std::optional<Defect> not_too_far(std::string_view field, double value);

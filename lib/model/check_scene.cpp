@@ -209,7 +209,7 @@ std::optional<Defect> check(const Selector& on, const std::string& at, std::size
 std::optional<Defect> check(const Scene& scene) {
     for (std::size_t i = 0; i < scene.trees.size(); ++i)
         if (auto defect = check(scene.trees[i], "trees/" + std::to_string(i))) return defect;
-    if (auto defect = finite("gravity", scene.gravity)) return defect;
+    if (auto defect = not_too_far("gravity", scene.gravity)) return defect;
     if (scene.wind)
         if (auto defect = check(*scene.wind)) return defect;
     if (auto defect = at_least("air_density", scene.air_density, 0)) return defect;

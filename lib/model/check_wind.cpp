@@ -24,8 +24,8 @@ std::optional<Defect> check(const WindGrid& grid) {
     if (!std::isfinite(grid.x) || !std::isfinite(grid.z))
         return Defect{at + "origin", -1, "is not finite, expected finite numbers"};
     if (auto defect = above_zero(at + "cell", grid.cell)) return defect;
-    for (const double length : {grid.x, grid.z, grid.cell})
-        if (auto defect = not_too_far(length == grid.cell ? at + "cell" : at + "origin", length)) return defect;
+    if (auto defect = not_too_far(at + "cell", grid.cell)) return defect;
+    if (auto defect = not_too_far(at + "origin", Vec3(grid.x, 0, grid.z))) return defect;
     for (const auto& [key, count] : {std::pair{"columns", grid.columns}, {"rows", grid.rows}})
         if (count < 1) return Defect{at + key, -1, "is " + std::to_string(count) + ", expected 1 or more"};
     const std::int64_t cells = std::int64_t(grid.columns) * grid.rows;

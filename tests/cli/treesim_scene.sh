@@ -2,7 +2,7 @@
 # treesim with a scene: its trees, and their roots moved.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-# A tree that cannot be read is named with its scene and place; a message stays short whatever a file names.
+# A tree that cannot be read is named with its scene; a message stays short whatever a file names.
 echo '{"format": "bough-scene", "version": 1, "trees": [{"file": "gone.json", "position": [1, 0, 0]}]}' >gone_scene.json
 refused 2 "gone_scene.json: /trees: gone.json: cannot be opened: No such file" treesim gone_scene.json --frames 2
 printf '{"format": "bough-scene", "version": 1, "trees": [{"file": "%s"}]}' "$(head -c 100000 /dev/zero | tr '\0' x)" >long_scene.json

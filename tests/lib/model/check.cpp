@@ -151,6 +151,15 @@ TEST_CASE("each rule of a scene") {
     CHECK(broken(good, [](Scene& s) { s.root_motion[1].rotation[1].x() = not_a_number; }) ==
           "root_motion/1/rotation/1");
     CHECK(broken(good, [](Scene& s) { s.gravity.x() = not_a_number; }) == "gravity");
+    CHECK(broken(good, [](Scene& s) { s.gravity.y() = -1e42; }) == "gravity");
+    const auto grid = [](double cell, double x) {
+        return [=](Scene& s) {
+            s.wind->grid.emplace().cell = cell;
+            s.wind->grid->x = x;
+        };
+    };
+    CHECK(broken(good, grid(1, 1e39)) == "wind/grid/origin");
+    CHECK(broken(good, grid(1e39, 1)) == "wind/grid/cell");
     CHECK(broken(good, [](Scene& s) { s.trees[0].file.clear(); }) == "trees/0/file");
     CHECK(broken(good, [](Scene& s) { s.trees[0].position.x() = -1.1e15; }) == "trees/0/position");
     CHECK(broken(good, [](Scene& s) { s.root_motion[0].position[1].x() = 1e300; }) == "root_motion/0/position/1");
