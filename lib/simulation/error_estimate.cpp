@@ -120,14 +120,13 @@ template <class T> void ErrorEstimate<T>::follow(const State<T>& run) {
 }
 
 template <class T> void ErrorEstimate<T>::note_roughness() {
-    const auto of_step = [&](std::int64_t step) { return past_.begin() + (step & 3) * std::int64_t(tips_.size()); };
+    const auto of_step = [&](std::int64_t step) { return past_.data() + std::size_t(step & 3) * tips_.size(); };
     const std::int64_t now = state_.step;
     for (std::size_t k = 0; k < tips_.size(); ++k) {
-        const auto at = std::int64_t(k);
         const Vec3 x = tip_position(plan_, state_, tree_, tips_[k]);
-        Vec3& oldest = of_step(now)[at]; // of four steps before
+        Vec3& oldest = of_step(now)[k]; // of four steps before
         if (steps_ >= 4) {
-            const Vec3 even = x + 6 * of_step(now - 2)[at] + oldest, odd = of_step(now - 1)[at] + of_step(now - 3)[at];
+            const Vec3 even = x + 6 * of_step(now - 2)[k] + oldest, odd = of_step(now - 1)[k] + of_step(now - 3)[k];
             rough_squares_ += (even - 4 * odd).squaredNorm();
         }
         oldest = x;
