@@ -98,8 +98,8 @@ const Tensor& tensor(const Safetensors& file, const std::string& name, const std
 std::vector<double> reals(const Safetensors& file, const std::string& name, const std::string& key,
                           const std::vector<std::int64_t>& shape) {
     const Tensor& from = tensor(file, name, key, Dtype::f64, shape);
-    std::vector<double> values(from.bytes / sizeof(double));
-    if (!values.empty()) std::memcpy(values.data(), from.data.data(), from.bytes);
+    std::vector<double> values(from.data.size() / sizeof(double));
+    if (!values.empty()) std::memcpy(values.data(), from.data.data(), from.data.size());
     check_finite(name, key, values.data(), values.size());
     return values;
 }
@@ -107,8 +107,8 @@ std::vector<double> reals(const Safetensors& file, const std::string& name, cons
 std::vector<std::int64_t> integers(const Safetensors& file, const std::string& name, const std::string& key,
                                    std::int64_t count) {
     const Tensor& from = tensor(file, name, key, Dtype::i64, {count});
-    std::vector<std::int64_t> values(from.bytes / sizeof(std::int64_t));
-    if (!values.empty()) std::memcpy(values.data(), from.data.data(), from.bytes);
+    std::vector<std::int64_t> values(from.data.size() / sizeof(std::int64_t));
+    if (!values.empty()) std::memcpy(values.data(), from.data.data(), from.data.size());
     return values;
 }
 

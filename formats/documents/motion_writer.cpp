@@ -172,7 +172,7 @@ struct MotionWriter::Implementation {
         output.write({reinterpret_cast<const char*>(time.data()), 8 * frames});
         std::uint64_t offset = 0;
         for (const FrameArray* a : arrays) {
-            std::string bytes(bytes_a_frame(*a), '\0');
+            std::string bytes(std::size_t(bytes_a_frame(*a)), '\0');
             for (std::size_t i = 0; i < frames; ++i) {
                 spool->read(i * stride + offset, bytes);
                 output.write(bytes);

@@ -105,6 +105,8 @@ void check_layout(const std::string& name, const Safetensors& file, std::uint64_
 json parse_header(std::string_view content, std::uint64_t size, const std::string& name, std::uint64_t& data_begin) {
     if (size < prefix)
         throw InputError(name, "is " + std::to_string(size) + " bytes long, expected a safetensors header");
+    if (std::size_t(size) != size)
+        throw InputError(name, "is " + std::to_string(size) + " bytes long, more than a program of 32 bits can address");
     std::uint64_t length = 0;
     std::memcpy(&length, content.data(), prefix);
     if (length > size - prefix)
@@ -114,7 +116,7 @@ json parse_header(std::string_view content, std::uint64_t size, const std::strin
     data_begin = prefix + length;
     json header;
     try {
-        header = parse_json(content.substr(prefix, length), name);
+        header = parse_json(content.substr(prefix, std::size_t(length)), name);
     } catch (const InputError& e) {
         throw InputError(name, "in its safetensors header: " + std::string(e.what()).substr(name.size() + 1));
     }
@@ -141,7 +143,7 @@ void read_array(Field& field, const Array& array, const Tensor& tensor, const Re
     const bool flat = array.components == 1;
     check_tensor(name, field.name, tensor, array.dtype,
                  flat ? std::vector<std::int64_t>{-1} : std::vector<std::int64_t>{-1, std::int64_t(array.components)});
-    field.numbers = tensor.bytes / dtype_size(array.dtype);
+    field.numbers = std::size_t(tensor.bytes) / dtype_size(array.dtype);
     field.seen = true;
     array.start(field.numbers / array.components);
     Numbers numbers;
@@ -211,7 +213,7 @@ std::size_t dtype_size(Dtype dtype) {
 
 Safetensors parse_safetensors(std::string_view content, const std::string& name) {
     Safetensors file = parse_safetensors_header(content, content.size(), name);
-    for (auto& [key, tensor] : file.tensors) tensor.data = content.substr(tensor.begin, tensor.bytes);
+    for (auto& [key, tensor] : file.tensors) tensor.data = content.substr(std::size_t(tensor.begin), std::size_t(tensor.bytes));
     return file;
 }
 

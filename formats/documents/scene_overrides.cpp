@@ -34,7 +34,7 @@ json& step_into(json& value, const std::string& at, const std::string& part, con
         throw InputError(change.given + ": " + pointer(at, part), "is no element of a list of " + std::to_string(size) +
                                                                       ", expected 0 to " + std::to_string(size) +
                                                                       " (the last of them adds one)");
-    const std::size_t index = std::stoull(part);
+    const auto index = std::size_t(std::stoull(part));
     if (index == size) value.push_back(nullptr);
     return value[index];
 }
