@@ -56,11 +56,11 @@ double sprays_of_a_leaf(const Tree& tree, std::int64_t most) {
     return std::min(1 / double(spray_leaves().size()), double(most) / double(std::max<std::int64_t>(leaves, 1)));
 }
 
-constexpr double strand = 3;        // length over width
+constexpr double slender = 3;       // length over width
 constexpr double strand_leaves = 3; // in place of a spray
 
 bool is_strand(const Vec3& size) {
-    return size.x() > strand * size.y();
+    return size.x() > slender * size.y();
 }
 
 // 0..1, how plumb the twigs of a species hang: a birch's 0.4, a willow's wholly.
