@@ -1,6 +1,7 @@
 // Forces of wind and pulls against values worked out by hand for a cylinder, a sphere and a plate.
 #include "lib/analytic/external_forces.h"
 #include "lib/plan/pushes.h"
+#include "lib/plan/reduced.h"
 #include "tests/support/solver_parts.h"
 #include "tests/support/solver_support.h"
 #include <catch2/catch.hpp>
@@ -19,6 +20,13 @@ Tree one_body(Kind kind) {
     if (kind == Kind::branch)
         make_tree::add_piece(tree, -1, Vec3::Zero(), make_tree::upright(), 2, 0.05, 0.03, 0, 0, 0);
     if (kind == Kind::leaf) make_tree::add_leaf(tree, -1, Vec3::Zero(), make_tree::upright(), 0.1, 0.06, 3e-4, 0, 0, 0);
+    // Fourteen leaves of 9 cm, most of which face as the clump does; those of a tuft are narrow.
+    if (kind == Kind::clump || kind == Kind::tuft) {
+        make_tree::add_leaf(tree, -1, Vec3::Zero(), make_tree::upright(), 0.3, kind == Kind::tuft ? 0.03 : 0.2, 3e-3, 0,
+                            0, 0);
+        tree.leaf_count = {14};
+        tree.leaf_facing = {0.7};
+    }
     if (kind == Kind::fruit) make_tree::add_fruit(tree, -1, Vec3::Zero(), make_tree::upright(), 0.05, 0.03, 0, 0, 0);
     return tree;
 }
@@ -80,18 +88,19 @@ TEST_CASE("(23): a leaf takes the wind's part along its normal, a quarter of it 
 
 TEST_CASE("force at rest and drag together are the force of the relative wind, the drag within its bound") {
     make_tree::Dice dice{std::mt19937(1)};
-    for (Kind kind : {Kind::branch, Kind::leaf, Kind::fruit})
+    for (Kind kind : {Kind::branch, Kind::leaf, Kind::fruit, Kind::clump, Kind::tuft})
         for (int k = 0; k < 200; ++k) {
             const Vec3 wind = random_vector(dice, 10), v = random_vector(dice, k % 2 ? 10 : 0.1);
             const Tree tree = one_body(kind);
+            CHECK(kind_in_air(tree, 0) == kind);
             const Blown b = blow(tree, wind, v);
             const Vec3 relative = parts::joints(blow(tree, wind - v).state).f_w[0];
             CHECK((parts::joints(b.state).f_w[0] + parts::joints(b.state).drag_f_w[0] - relative).norm() <
                   1e-13 * (1 + parts::joints(b.state).f_w[0].norm()));
             CHECK(parts::joints(b.state).drag_f_w[0].norm() <=
                   parts::joints(b.state).drag_bound[0] * v.norm() * (1 + 1e-12));
-            // It brakes; a leaf's, in a wind, need not: moving in its plane changes |u| and with it the force along n.
-            if (kind != Kind::leaf) CHECK(parts::joints(b.state).drag_f_w[0].dot(v) <= 1e-15);
+            // It brakes; a leaf's and a clump's, in a wind, need not: moving in the leaf's plane changes |u| and with it the force along n.
+            if (kind == Kind::branch || kind == Kind::fruit) CHECK(parts::joints(b.state).drag_f_w[0].dot(v) <= 1e-15);
             const Vec3 arm = b.state.R_wb[0] * b.plan.com[0];
             CHECK((parts::joints(b.state).drag_tau_w[0] - arm.cross(parts::joints(b.state).drag_f_w[0])).norm() <
                   1e-13);
