@@ -106,7 +106,8 @@ json parse_header(std::string_view content, std::uint64_t size, const std::strin
     if (size < prefix)
         throw InputError(name, "is " + std::to_string(size) + " bytes long, expected a safetensors header");
     if (std::size_t(size) != size)
-        throw InputError(name, "is " + std::to_string(size) + " bytes long, more than a program of 32 bits can address");
+        throw InputError(name,
+                         "is " + std::to_string(size) + " bytes long, more than a program of 32 bits can address");
     std::uint64_t length = 0;
     std::memcpy(&length, content.data(), prefix);
     if (length > size - prefix)
@@ -213,7 +214,8 @@ std::size_t dtype_size(Dtype dtype) {
 
 Safetensors parse_safetensors(std::string_view content, const std::string& name) {
     Safetensors file = parse_safetensors_header(content, content.size(), name);
-    for (auto& [key, tensor] : file.tensors) tensor.data = content.substr(std::size_t(tensor.begin), std::size_t(tensor.bytes));
+    for (auto& [key, tensor] : file.tensors)
+        tensor.data = content.substr(std::size_t(tensor.begin), std::size_t(tensor.bytes));
     return file;
 }
 
