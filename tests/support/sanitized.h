@@ -1,6 +1,6 @@
 // sanitized.h: what a sanitized build leaves out. A sanitizer looks at the code that runs, not at the numbers that come out,
 // and takes ten times as long: the few tests that go to large sizes, many steps or many cases stop earlier there. The
-// Release build by itself runs everything, and no bound differs; with a sanitized one beside it (tests/run), what is only done in more rounds is left to that.
+// Release build runs everything, and no bound differs. (Beside a sanitized build, tests/run leaves out of it the few that would only go more rounds.)
 #pragma once
 #include <initializer_list>
 #include <vector>

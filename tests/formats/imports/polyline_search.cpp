@@ -51,7 +51,8 @@ TEST_CASE("of branches, long and short") {
         for (const std::size_t b : {0, 1, 0}) same(search.nearest(b, p), nearest_on(branches[b].point, p));
 }
 
-// What is far from the point asked for is moved onto it once the boxes are made: who looks at it finds it nearer.
+// What is far from the point asked for is moved onto it once the boxes are made: who looks at it finds it nearer. (Of segments; how many boxes are asked
+// is not seen.)
 TEST_CASE("asking a long branch looks at what is near alone") {
     const std::size_t points = 200000, window = 64;
     for (const std::size_t at : {std::size_t(100), points / 3, points - 100}) {
@@ -65,6 +66,7 @@ TEST_CASE("asking a long branch looks at what is near alone") {
             if (k + window < at || k > at + window) branches[0].point[k] = p;
         const OnPolyline after = search.nearest(0, p);
         CHECK(after.segment == before.segment);
+        CHECK(after.t == before.t);
         CHECK(after.distance == before.distance);
     }
 }

@@ -90,7 +90,7 @@ TEST_CASE("arrays that are named over and over are refused before they take memo
     CHECK(refused(1, some).empty());
 }
 
-// Time decides no test of those that run each time: this is run by hand, test_formats_models '[.time]'.
+// A clock decides it, so it is run by hand: test_formats_models '[.time]'.
 TEST_CASE("reading many nodes takes time in proportion to their number", "[.time]") {
     const auto seconds = [](int nodes) {
         Json json = Json::parse(R"({"asset": {"version": "2.0"}, "nodes": []})");

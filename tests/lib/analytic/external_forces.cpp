@@ -99,7 +99,7 @@ TEST_CASE("force at rest and drag together are the force of the relative wind, t
                   1e-13 * (1 + parts::joints(b.state).f_w[0].norm()));
             CHECK(parts::joints(b.state).drag_f_w[0].norm() <=
                   parts::joints(b.state).drag_bound[0] * v.norm() * (1 + 1e-12));
-            // It brakes; a leaf's and a clump's, in a wind, need not: moving in the leaf's plane changes |u| and with it the force along n.
+            // It brakes; a leaf's, clump's and tuft's, in a wind, need not: moving in the leaf's plane changes |u| and with it the force along n.
             if (kind == Kind::branch || kind == Kind::fruit) CHECK(parts::joints(b.state).drag_f_w[0].dot(v) <= 1e-15);
             const Vec3 arm = b.state.R_wb[0] * b.plan.com[0];
             CHECK((parts::joints(b.state).drag_tau_w[0] - arm.cross(parts::joints(b.state).drag_f_w[0])).norm() <
