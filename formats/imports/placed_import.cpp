@@ -93,7 +93,7 @@ void find_large(const std::vector<double>& sizes, const Splines& s, const std::s
     if (!(*most > refused.extent * extent && *most > refused.median * median)) return;
     throw InputError(name, "the " + called + std::to_string(most - sizes.begin()) + " is " + shown(*most) +
                                " m in a tree that is " + shown(extent) + " m large, with a median of " + shown(median) +
-                               " m" + "; expected less than the tree is large");
+                               " m; expected less than the tree is large");
 }
 
 } // namespace

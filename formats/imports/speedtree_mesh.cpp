@@ -115,7 +115,7 @@ private:
     // In the file's unit.
     std::vector<Eigen::Vector3f> mesh_points(const pugi::xml_node& list, const Fields& f) const {
         std::vector<Eigen::Vector3f> points;
-        const double most = std::min(farthest, farthest / world_.linear().col(0).norm());
+        const double most = std::min(largest_length, largest_length / world_.linear().col(0).norm());
         for (const Vec3& p : f.points(list, "")) {
             if (!(p.cwiseAbs().maxCoeff() <= most)) refuse_far(list, p, "at most " + shown(most), f);
             points.push_back(p.cast<float>());

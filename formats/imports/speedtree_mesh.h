@@ -17,8 +17,6 @@
 
 namespace bough::speedtree {
 
-constexpr double farthest = largest_length; // [m] as for skeletons (placed_import.h)
-
 struct Map {
     std::string name;            // "Color", "Opacity", "Normal", "Gloss" ...
     std::string file;            // as the file names it; empty: none
@@ -52,8 +50,8 @@ struct MeshFile {
 // within: [m] where points of objects may be in the world. Those of meshes may be as far from their origin as `world` leaves below 1e15 m.
 MeshFile parse_mesh(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
                     const Eigen::Affine3d& world,
-                    const Eigen::AlignedBox3d& within = {Vec3(Vec3::Constant(-farthest)),
-                                                         Vec3(Vec3::Constant(farthest))});
+                    const Eigen::AlignedBox3d& within = {Vec3(Vec3::Constant(-largest_length)),
+                                                         Vec3(Vec3::Constant(largest_length))});
 
 // Whether an object of the file has triangles, by its text alone (meshes of leaves without any bark are no tree to be seen). O(bytes).
 bool has_mesh(std::string_view content);

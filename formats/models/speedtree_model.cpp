@@ -315,9 +315,9 @@ Eigen::AlignedBox3d about_skeleton(const SpeedtreeModel& model) {
     }
     for (const Object& object : model.file.objects)
         for (const Vec3& p : object.spine) box.extend(model.world * p);
-    Vec3 around = Vec3::Constant(farthest);
+    Vec3 around = Vec3::Constant(largest_length);
     if (!box.isEmpty() && box.diagonal().norm() > 0)
-        around.setConstant(std::min(farthest, aloof * box.diagonal().norm()));
+        around.setConstant(std::min(largest_length, aloof * box.diagonal().norm()));
     const Vec3 middle = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
     return {Vec3(middle - around), Vec3(middle + around)};
 }
