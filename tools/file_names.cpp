@@ -73,6 +73,11 @@ bool same_file(const std::string& input, const std::string& output) {
     return !input.empty() && !output.empty() && replaces(written_by({"", output}), input);
 }
 
+bool is_kept(const std::string& output) {
+    struct stat status {};
+    return output != "-" || (::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode));
+}
+
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written) {
     for (const NamedFile& output : written)
         for (const NamedFile& input : read)

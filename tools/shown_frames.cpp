@@ -260,7 +260,7 @@ ShownFrames shown_frames(TreesimOptions& o, const Setting& setting, const Simula
     shown.sink = open_sink(o, setting, shown.own ? *shown.own : run.tree(), run.bodies(), format, first, last, model);
     if (model.driven && balls > 0)
         o.common.notes.push_back("balls and walkers are not shown beside a model's own mesh");
-    if (o.common.output != "-") {
+    if (is_kept(o.common.output)) {
         std::string smaller =
             smaller_output(format, o.digits || o.run.precision == "float", split_list(o.fields).size() > 1);
         shown.sink =

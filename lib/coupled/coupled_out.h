@@ -243,8 +243,7 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         if constexpr (wind) {
             const V3<W> ahead = f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c);
             const V3<W> com = k.vector(constant::com);
-            const W arm = has_face(kind) ? root(dot(com, com)) : W{};
-            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, folds,
+            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, com, folds,
                                               this->template facing<kind>(row, lane));
             out.set(loaded::D, air.D);
             H = H + streaming_stiffness(rows.folds, V3<W>(R * k.vector(constant::carried_drag)), u,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double own_clump = 0.25; // [1] of the threshold, at which a side branch has a clump of its own
 constexpr double bodies_power = 0.75;
-constexpr std::size_t slowest_kept = 4;
+constexpr std::size_t slowest_kept = 16;
 constexpr int most_halvings = 60;
 
 constexpr double branches_spread = 0.05; // [octaves]
@@ -104,7 +104,7 @@ void Chooser::keep_slowest(const Flexibility& give) {
     }
     const std::size_t count = std::min(slowest_kept, slow.size());
     std::partial_sort(slow.begin(), slow.begin() + std::ptrdiff_t(count), slow.end(), std::greater<>());
-    for (std::size_t k = 0; k < count; ++k) chain_[slow[k].second].weight = heaviest * std::exp2(-double(k));
+    for (std::size_t k = 0; k < count; ++k) chain_[slow[k].second].weight = heaviest * std::exp2(-double(k) / 2);
 }
 
 // A tree keeps its height: the way to its highest wood is always resolved, if by one body a branch, unless it takes more than half of all bodies.

@@ -52,8 +52,8 @@ void add_air_turning(const AirBody<T>& body, const LeafTerms<T>& leaf, const Mat
                      const CarriedDrag<T>& carried, T times, Matrix3<T>& turning) {
     if (has_leaf_air(leaf, body.kind)) turning += times * leaf_turning(leaf, body, R, u);
     turning += times * streaming_stiffness(carried.folds, carried.first, u);
-    if (has_face(body.kind, body.facing))
-        turning += times * body.drag_area * body.com.norm() * air_turning(body.kind, R, u, body.facing);
+    if (has_face(body.kind, body.facing.degree))
+        turning += times * body.drag_area * body.com.norm() * air_turning(body, R, u);
 }
 
 // [J] Returns the most work that the air's force can do on a body in a time h, whatever the body does. Its power is at most kappa rho A times 4/27
@@ -64,8 +64,8 @@ T air_work_bound(const AirBody<T>& body, const LeafTerms<T>& leaf, T h, const Ve
     const T speed = U.norm();
     const T plate = past * speed * speed / 4, others = T(4.0 / 27) * speed * speed * speed;
     T most = is_flat(body.kind) ? plate : others;
-    if (!is_flat(body.kind) && has_face(body.kind, body.facing)) {
-        const Facing<T> c = facing_of(body.kind, body.facing);
+    if (!is_flat(body.kind) && has_face(body.kind, body.facing.degree)) {
+        const Facing<T> c = facing_of(body.kind, body.facing.degree);
         most = c.along * plate + c.all_ways * others;
     }
     const T limit = h * body.drag_area * most;

@@ -52,6 +52,7 @@ void copy_leaders(const Tree& whole, Reduced& r) {
     if (!whole.load.empty()) t.load.assign(r.leader.size(), 0);
     if (!whole.leaf_count.empty()) t.leaf_count.assign(r.leader.size(), 1);
     if (!whole.leaf_facing.empty()) t.leaf_facing.assign(r.leader.size(), 0);
+    if (!whole.leaf_normal.empty()) t.leaf_normal.assign(r.leader.size(), Vec3::UnitY());
     if (!whole.drag.empty()) t.drag.assign(r.leader.size(), 1);
     for (std::size_t g = 0; g < r.leader.size(); ++g) {
         const auto i = std::size_t(r.leader[g]);
@@ -77,6 +78,7 @@ void copy_leaders(const Tree& whole, Reduced& r) {
         t.s[g] = whole.s[i];
         if (!whole.leaf_count.empty()) t.leaf_count[g] = whole.leaf_count[i];
         if (!whole.leaf_facing.empty()) t.leaf_facing[g] = whole.leaf_facing[i];
+        if (!whole.leaf_normal.empty()) t.leaf_normal[g] = whole.leaf_normal[i];
         if (!whole.drag.empty()) t.drag[g] = whole.drag[i];
     }
 }

@@ -48,11 +48,17 @@ sys.exit(child.wait())
 END
 }
 
-stop out treesim tree.json --frames 1000000
+stop out treesim -q tree.json --frames 1000000
 python3 -c '
 import json
 frames = [json.loads(line) for line in open("out")][1:]
 assert [f["frame"] for f in frames] == list(range(len(frames))) and frames' || fail "the JSON lines are not whole"
+
+# What a shell leads into a file is kept as what -o names is: its size is said. What goes through a pipe is not.
+interrupt 0.3 out treesim tree.json --frames 1000000 || true
+grep -q 'will be about [0-9.]* [GT]B' err || fail "nothing is said of a large file's size: $(cat err)"
+{ treesim tree.json --frames 1000000 2>err || true; } | head -c 2000000 >/dev/null
+! grep -q 'will be about' err || fail "the size of what goes through a pipe is said: $(cat err)"
 
 stop unfinished treesim -q tree.json --frames 1000000 -o cut.json
 python3 -c 'import json; assert json.load(open("cut.json"))' || fail "the JSON is not whole"

@@ -243,8 +243,8 @@ inline bool same(const Tree& a, const Tree& b) {
            same(a.size, b.size) && same(a.branch, b.branch) && same(a.level, b.level) && same(a.s, b.s) &&
            same(a.rigid, b.rigid) && same(a.load, b.load) && same(a.leaf_count, b.leaf_count) &&
            same(a.leaf_length, b.leaf_length) && same(a.leaf_width, b.leaf_width) &&
-           same(a.leaf_facing, b.leaf_facing) && same(a.drag, b.drag) && a.name == b.name && a.material == b.material &&
-           a.source == b.source && same(a.color, b.color);
+           same(a.leaf_facing, b.leaf_facing) && same(a.leaf_normal, b.leaf_normal) && same(a.drag, b.drag) &&
+           a.name == b.name && a.material == b.material && a.source == b.source && same(a.color, b.color);
 }
 
 inline bool same(const Splines& a, const Splines& b) {
