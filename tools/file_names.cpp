@@ -75,7 +75,8 @@ bool same_file(const std::string& input, const std::string& output) {
 
 bool is_kept(const std::string& output) {
     struct stat status {};
-    return output != "-" || (::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode));
+    const bool there = output == "-" ? ::fstat(STDOUT_FILENO, &status) == 0 : ::stat(output.c_str(), &status) == 0;
+    return there ? S_ISREG(status.st_mode) || S_ISDIR(status.st_mode) : output != "-";
 }
 
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written) {

@@ -9,7 +9,7 @@ namespace bough {
 // may stand behind it) and stdout. A pattern of a sequence (x_%04d.obj) stands for all its files.
 bool same_file(const std::string& input, const std::string& output);
 
-// Whether the output ends up on a disk, as a named file does and stdout where a shell leads it into one.
+// Whether the output ends up on a disk, stdout too where a shell leads it into a file. Pipes and devices are none.
 bool is_kept(const std::string& output);
 
 // Throws UsageError where an output is one of the inputs, another kind of file that would be lost. Empty names are none.

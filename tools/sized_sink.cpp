@@ -25,7 +25,7 @@ private:
     void tell(double first, double frame) const {
         const double all = first + frame * double(frames_ - 1);
         if (all <= large_) return;
-        say_("-o: will be about " + bytes_text(all) + ", " + bytes_text(frame) + " a frame" +
+        say_("the output will be about " + bytes_text(all) + ", " + bytes_text(frame) + " a frame" +
              (smaller_.empty() ? "" : "; " + smaller_));
     }
 

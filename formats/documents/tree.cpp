@@ -55,7 +55,6 @@ std::vector<Field> fields_of(Tree& t) {
             perhaps("leaf_length", t.leaf_length, body),
             perhaps("leaf_width", t.leaf_width, body),
             perhaps("leaf_facing", t.leaf_facing, body),
-            perhaps("leaf_normal", t.leaf_normal, body),
             perhaps("drag", t.drag, body)};
 }
 

@@ -160,9 +160,9 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             const W scale = k.real(constant::drag_area);
             const W still2 = dot(still, still), still_speed = root(still2);
             W speed_0, speed_1;
-            const LeafFace<W> facing = this->template facing<kind>(row, lane);
-            const V3<W> f0 = air_in_body_axes<kind>(still, speed_0, folds, facing),
-                        f1 = air_in_body_axes<kind>(moving, speed_1, folds, facing);
+            const W facing = this->template facing<kind>(row, lane);
+            const V3<W> f0 = air_in_body_axes<kind>(still, speed_0, folds, facing, f.R_bw.y),
+                        f1 = air_in_body_axes<kind>(moving, speed_1, folds, facing, f.R_bw.y);
             prefetch<2 * most / 3, 5 * most / 6>(next_row);
             const V3<W> force = scale * f0;
             out.set(loaded::f, force);
@@ -170,13 +170,13 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             out.set(loaded::drag_f, scale * (f1 - f0));
             prefetch<5 * most / 6, most>(next_row);
             W largest = scale; // [kg/m] of any direction
-            if constexpr (kind == Kind::clump) largest = (1 + facing.degree) * scale;
+            if constexpr (kind == Kind::clump) largest = (1 + facing) * scale;
             const W sway = largest * k.real(constant::sway);
             out.set(loaded::drag, W(sway * (speed_1 + speed_0)));
             const W pressing = kind == Kind::branch ? still_speed : speed_0;
             out.set(loaded::wind, W(sway * pressing));
             if constexpr (kind == Kind::clump) {
-                const auto [along, all_ways] = facing_of<kind>(facing.degree);
+                const auto [along, all_ways] = facing_of<kind>(facing);
                 out.set(loaded::turn, W((all_ways + 2 * along) * scale * pressing * still_speed));
             } else {
                 constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);

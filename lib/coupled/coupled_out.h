@@ -243,7 +243,8 @@ template <class T, bool field = false> struct CoupledOut : CoupledParts<T> {
         if constexpr (wind) {
             const V3<W> ahead = f.vector(outward::ahead_v) + cross(f.vector(outward::ahead_omega), c);
             const V3<W> com = k.vector(constant::com);
-            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, com, folds,
+            const W arm = kind == Kind::leaf ? root(dot(com, com)) : W{};
+            const AirOn<W> air = air_on<kind>(u, speed, ahead, R, k.real(constant::drag_area), H, arm, folds,
                                               this->template facing<kind>(row, lane));
             out.set(loaded::D, air.D);
             H = H + streaming_stiffness(rows.folds, V3<W>(R * k.vector(constant::carried_drag)), u,

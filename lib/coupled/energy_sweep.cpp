@@ -219,8 +219,8 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
             const V3<W> mean = (1 / rows.h) * (own + ground.carried), ahead = mean - rate_at_com;
             Symmetric<W> unused{};
             const V3<W> u = air_velocity - rate_at_com;
-            const LeafFace<W> facing = this->template facing<kind>(row, lane);
-            force = air_on<kind>(u, air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, V3<W>{}, folds, facing).force;
+            const W facing = this->template facing<kind>(row, lane);
+            force = air_on<kind>(u, air_speed<kind>(u, f.R), -ahead, f.R, scale, unused, W{}, folds, facing).force;
             const LeafBody<W> body{b.mass, scale};
             if constexpr (kind == Kind::leaf)
                 if (rows.leaf.on)
@@ -230,7 +230,7 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
                 const V3<W> U = air_velocity - (1 / rows.h) * (own + ground.carried - way);
                 const W speed2 = dot(U, U);
                 const V3<W> relative = air_velocity - mean;
-                W limit = air_work_bound<kind>(rows.h, scale, speed2, relative, facing.degree);
+                W limit = air_work_bound<kind>(rows.h, scale, speed2, relative, facing);
                 if constexpr (kind == Kind::leaf)
                     if (rows.leaf.on) limit = limit + leaf_work(rows.leaf, body, rows.h, speed2, relative);
                 return smaller(dot(force, way), limit);

@@ -28,9 +28,9 @@ Vec3 middle_in_air(const Sums& s, Kind many) {
     return area > 0 ? Vec3(s.air / area) : s.com;
 }
 
-// Tree::leaf_facing of what the air takes hold of. Where it is below 0, more leaves' edges than faces are along n.
-double leaf_facing(const Sums& s, const Vec3& n) {
-    const double all = s.faces.trace(), square = all > 0 ? n.dot(s.faces * n) / all : 0;
+// Tree::leaf_facing of what the air takes hold of. Where it is below 0, more leaves' edges than faces point up.
+double leaf_facing(const Sums& s) {
+    const double all = s.faces.trace(), square = all > 0 ? s.faces(1, 1) / all : 0;
     return std::clamp((3 * square - 1) / 2, 0.0, 1.0);
 }
 
@@ -48,7 +48,7 @@ private:
     struct Swinging {
         double mass, over_lever2, droop; // [kg]; r^2 / L^2; [m] least L
     };
-    Swinging swinging(const Sums&, const Vec3& n, const Vec3& z, double facing) const;
+    Swinging swinging(const Sums&, const Vec3& z, double facing) const;
     Vec3 place_of_kept_mass(const Sums&, double kept) const;
     void give_rest_to_wood(std::size_t on, std::size_t clump, double kept, double share, const Vec3& at);
     void match_give();
@@ -105,11 +105,11 @@ void Lumper::shape_wood(std::size_t b, std::size_t i) {
 //   D / A m^2 - 2 Q m + (4 - T) S^2 / 4 = 0
 // of which m is the larger root, between S^2 / 2 Q, where the mass is a point, and all of it. Where the parts brake more than any m does, D / Q is
 // that of a point: m = A T Q / 2 D.
-Lumper::Swinging Lumper::swinging(const Sums& s, const Vec3& n, const Vec3& z, double facing) const {
+Lumper::Swinging Lumper::swinging(const Sums& s, const Vec3& z, double facing) const {
     Swinging w;
-    const double A = area_in_air(s, many_) / met_by_wind(n, facing), S = s.give, Q = s.swing;
+    const double A = area_in_air(s, many_) / met_by_wind(Vec3::UnitY(), facing), S = s.give, Q = s.swing;
     if (!(S > 0 && Q > 0)) return {s.mass, 0, 0};
-    const Mat3 damped = bough::damped(many_, n, facing);
+    const Mat3 damped = bough::damped(many_, Vec3::UnitY(), facing);
     const double T = damped.trace() - z.dot(damped * z);
     const double square = Q * Q - (4 - T) * S * S / 4 * s.braked / A;
     w.mass =
@@ -129,14 +129,13 @@ void Lumper::shape_clump(std::size_t b) {
     const Vec3 z = way.norm() > 1e-9 * gyration ? Vec3(way.normalized()) : Vec3(pose_.R_wb[host_body].col(2));
     const Vec3 side = Vec3::UnitY().cross(z);
     const Vec3 x = side.norm() > 1e-6 ? Vec3(side.normalized()) : Vec3(Vec3::UnitX()), y = z.cross(x);
-    const Vec3 n = Vec3::UnitY(); // leaves face up
-    const double facing = leaf_facing(s, n);
+    const double facing = leaf_facing(s);
     pose_.R_wb[b].col(0) = x;
     pose_.R_wb[b].col(1) = y;
     pose_.R_wb[b].col(2) = z;
     const Mat3 spread = pose_.R_wb[b].transpose() * s.inertia * pose_.R_wb[b] / s.mass;
     const double across = 0.5 * (spread(0, 0) + spread(1, 1));
-    const Swinging swinging = this->swinging(s, n, z, facing);
+    const Swinging swinging = this->swinging(s, z, facing);
     const Vec3 at = place_of_kept_mass(s, swinging.mass);
     // Held out level it droops no more than branches do (carry.h).
     const double wanted = swinging.over_lever2 > 0 ? std::sqrt(across / swinging.over_lever2) : most_lever * gyration;
@@ -158,8 +157,8 @@ void Lumper::shape_clump(std::size_t b) {
     tree_.leaf_length[b] = std::sqrt(2 * one / slim);
     tree_.leaf_width[b] = std::sqrt(2 * one * slim);
     tree_.leaf_facing[b] = facing;
-    tree_.leaf_normal[b] = pose_.R_wb[b].transpose() * n;
-    tree_.drag[b] = area_in_air(s, many_) / met_by_wind(n, facing) / leaf_area(tree_.size[b][0], tree_.size[b][1]);
+    tree_.drag[b] =
+        area_in_air(s, many_) / met_by_wind(Vec3::UnitY(), facing) / leaf_area(tree_.size[b][0], tree_.size[b][1]);
 }
 
 // Where the mass that a clump keeps is: in the middle of what the air takes hold of, as leaves are further out than the wood under them. What is
@@ -258,7 +257,6 @@ Tree Lumper::run() {
     tree_.leaf_length.assign(chosen_.size(), 0);
     tree_.leaf_width.assign(chosen_.size(), 0);
     tree_.leaf_facing.assign(chosen_.size(), 0);
-    tree_.leaf_normal.assign(chosen_.size(), Vec3::UnitY());
     pose_.R_wb.resize(chosen_.size());
     pose_.x_w.resize(chosen_.size());
     for (std::size_t b = 0; b < chosen_.size(); ++b) {
@@ -273,7 +271,6 @@ Tree Lumper::run() {
         tree_.damping[b] = whole_.damping[i];
         if (!whole_.leaf_count.empty()) tree_.leaf_count[b] = whole_.leaf_count[i];
         if (!whole_.leaf_facing.empty()) tree_.leaf_facing[b] = whole_.leaf_facing[i];
-        if (!whole_.leaf_normal.empty()) tree_.leaf_normal[b] = whole_.leaf_normal[i];
         tree_.parent[b] = chosen_.on[b];
         pose_.R_wb[b] = give_.pose.R_wb[i];
         pose_.x_w[b] = give_.pose.x_w[i];
@@ -286,7 +283,6 @@ Tree Lumper::run() {
         tree_.leaf_length.clear();
         tree_.leaf_width.clear();
         if (whole_.leaf_facing.empty()) tree_.leaf_facing.clear();
-        if (whole_.leaf_normal.empty()) tree_.leaf_normal.clear();
         if (whole_.leaf_count.empty()) tree_.leaf_count.clear();
     }
     return std::move(tree_);

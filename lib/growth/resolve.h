@@ -17,7 +17,7 @@
 // threshold t for the whole tree: branches of w >= t are resolved, by (w / t)^0.75 bodies; a clump is a side branch's own where w >= t / 4;
 // a leaf is resolved where its own w >= t (alike leaves' are spread by a factor of up to 2 each way,
 // alike branches' by 1.035). The sixteen side branches with the most
-// S / m at omega weigh 1, 0.71, 0.5 ... of the heaviest: the lowest modes may be theirs. t is the least that keeps to the budget. The
+// S / m at omega weigh at least 1, 0.71, 0.5 ... of the heaviest: the lowest modes may be theirs. t is the least that keeps to the budget. The
 // branches to the highest wood are always resolved, by one body each, unless they are more than half of the bodies; and so is fruit, which
 // hardly sways but is seen, up to a quarter of the bodies. The numbers are fitted: those at which frequencies and damping of the eight
 // species are nearest to the whole tree's.
@@ -34,7 +34,7 @@
 // that of all its parts, the share is as much further in.
 // Air. Tree::drag gives each body the drag of its parts as they stand in horizontal winds, mean over their directions: wood that of its
 // pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold and turn), of its wood. Tree::leaf_facing is that of its
-// leaves about the upright as drawn (Tree::leaf_normal), and wood counts as leaves that face all ways across it. Where more edges than faces point
+// leaves, and wood counts as leaves that face all ways across it. Where more edges than faces point
 // up, it is 0.
 // What comes out, in leaf: README.md beside this; held by tests/lib/growth/resolve.cpp.
 // Reads a tree of segment(). Cost O(bodies), some eighty times.

@@ -104,7 +104,10 @@ void Chooser::keep_slowest(const Flexibility& give) {
     }
     const std::size_t count = std::min(slowest_kept, slow.size());
     std::partial_sort(slow.begin(), slow.begin() + std::ptrdiff_t(count), slow.end(), std::greater<>());
-    for (std::size_t k = 0; k < count; ++k) chain_[slow[k].second].weight = heaviest * std::exp2(-double(k) / 2);
+    for (std::size_t k = 0; k < count; ++k) {
+        double& weight = chain_[slow[k].second].weight;
+        weight = std::max(weight, heaviest * std::exp2(-double(k) / 2));
+    }
 }
 
 // A tree keeps its height: the way to its highest wood is always resolved, if by one body a branch, unless it takes more than half of all bodies.

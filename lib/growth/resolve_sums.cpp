@@ -21,9 +21,7 @@ struct Face {
     double facing;
 };
 Face face_of(const Tree& tree, std::size_t i, const Mat3& R) {
-    if (is_clump(tree, i))
-        return {tree.leaf_normal.empty() ? Vec3(R.col(1)) : Vec3(R * tree.leaf_normal[i]),
-                tree.leaf_facing.empty() ? 0 : tree.leaf_facing[i]};
+    if (is_clump(tree, i)) return {Vec3::UnitY(), tree.leaf_facing.empty() ? 0 : tree.leaf_facing[i]};
     if (is_flat(tree.kind[i])) return {R.col(1), 1};
     return {R.col(2), tree.kind[i] == Kind::fruit ? 0.0 : -1.0};
 }

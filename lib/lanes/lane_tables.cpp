@@ -110,7 +110,6 @@ void place_tables(const Plan<T>& plan, const PlannedLanes<T>& planned, State<T>&
         rows.per_metre = planned.per_metre;
         rows.leaf = plan.leaf;
         rows.facing = planned.facing.empty() ? nullptr : planned.facing.front().lane;
-        rows.normal = planned.normal.empty() ? nullptr : planned.normal.front().lane;
     }
     if (plan.loads) place_loads(planned, state, lanes);
     if (lanes.pulls.empty()) return;

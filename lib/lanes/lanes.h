@@ -45,7 +45,6 @@ template <class T> struct PlannedLanes {
     RowVector<T> shelter; // of bodies, a row each row; empty without
     RowVector<T> clock;   // likewise
     RowVector<T> facing;  // likewise
-    RowVector<T> normal;  // likewise, three rows each row
     PlannedSleep sleep;
 };
 

@@ -28,18 +28,6 @@ void fill_of_bodies(const Layout& layout, const std::vector<Number>& of_body, Ro
     }
 }
 
-// A vector of each body, or nothing.
-template <class T>
-void fill_of_bodies(const Layout& layout, const std::vector<Vector3<T>>& of_body, RowVector<T>& rows) {
-    if (of_body.empty()) return;
-    rows.assign(3 * layout.rows, Row<T>{});
-    for (std::size_t i = 0; i < of_body.size(); ++i) {
-        const std::size_t slot = layout.slot[i];
-        for (std::size_t k = 0; k < 3; ++k)
-            rows[3 * (slot / Row<T>::lanes) + k].lane[slot % Row<T>::lanes] = of_body[i][Eigen::Index(k)];
-    }
-}
-
 } // namespace
 
 template <class T>
@@ -57,7 +45,6 @@ void lay_out_lanes(const Plan<T>& plan, const std::vector<TreeRange>& ranges, Pl
     fill_of_bodies(lanes.layout, plan.shelter, lanes.shelter);
     fill_of_bodies(lanes.layout, plan.clock, lanes.clock);
     fill_of_bodies(lanes.layout, plan.facing, lanes.facing);
-    fill_of_bodies(lanes.layout, plan.normal, lanes.normal);
     const WindTable<T> table = make_wind_table<T>(*plan.scene.wind, plan.top, plan.reach, plan.clocks);
     lanes.profile = table.profile;
     lanes.per_metre = table.per_metre;

@@ -43,15 +43,12 @@ template <class T, class Given> struct SweepParts : WideWind<T, Given> {
         return rows.constants_row ? rows.constants_row[row] : row;
     }
 
-    // Returns how clumps' leaves face, in the body's axes; of other kinds, which do not read it, nothing.
-    template <Kind kind> BOUGH_FORCE LeafFace<W> facing(std::uint32_t row, int lane) const {
-        if constexpr (kind == Kind::clump) {
-            const T* n = rows.normal + 3 * (row * std::size_t(L)) + std::size_t(lane);
-            return {read(rows.facing + row * std::size_t(L) + std::size_t(lane)),
-                    {read(n), read(n + std::size_t(L)), read(n + 2 * std::size_t(L))}};
-        } else {
-            return LeafFace<W>{W{}, {}};
-        }
+    // Returns how much clumps' leaves face up (Plan::facing); of other kinds, which do not read it, 0.
+    template <Kind kind> BOUGH_FORCE W facing(std::uint32_t row, int lane) const {
+        if constexpr (kind == Kind::clump)
+            return read(rows.facing + row * std::size_t(L) + std::size_t(lane));
+        else
+            return W{};
     }
 
     // Returns the rotation to the parent's body frame from the joint frame.

@@ -72,7 +72,6 @@ template <class T> struct SweepRows {
     FieldRows<T> field; // for sweeps that are compiled for it
     LeafTerms<T> leaf;
     const T* facing; // [1] of clumps (Plan::facing), a row of lanes for each row; null: none has a face
-    const T* normal; // with it, Plan::normal, three rows of lanes for each row
 };
 
 // The parts of a scene that sweeps are compiled for.

@@ -49,21 +49,15 @@ constexpr bool has_face(Kind kind) {
     return kind == Kind::leaf || kind == Kind::clump;
 }
 
-// LeafFacing of air.h, of a clump with a face.
-template <class W> struct LeafFace {
-    W degree;
-    V3<W> normal; // body frame
-};
-
 template <class W> struct AirOn {
     V3<W> force; // [N] with the drag of the velocity ahead
     Symmetric<W> D;
 };
 
-// Returns force and damping, and adds to H how the moment of what has a face changes with its turning. com: body frame.
+// Returns force and damping, and adds to H how a leaf's moment changes with its turning. arm: |com|.
 template <Kind kind, class W, class T = RealOf<W>>
 BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& ahead, const M3<W>& R, const W& scale,
-                            Symmetric<W>& H, const V3<W>& com, Folds<T> folds, const LeafFace<W>& facing) {
+                            Symmetric<W>& H, const W& arm, Folds<T> folds, const W& facing) {
     AirOn<W> out;
     W one = scale * s.speed, more = scale * s.inverse;
     if constexpr (kind != Kind::branch) {
@@ -71,23 +65,23 @@ BOUGH_FORCE AirOn<W> air_on(const V3<W>& u, const AirSpeed<W>& s, const V3<W>& a
         one = G.share * one;
         more = G.slope * more;
     }
-    if constexpr (has_face(kind)) {
-        V3<W> n = R.y, x = R.x, arm = com;
-        if constexpr (kind == Kind::clump) {
-            n = R * facing.normal;
-            arm = cross(facing.normal, com);
-            x = R * arm;
-        }
-        W turns = root(dot(arm, arm));
-        if constexpr (kind == Kind::clump) turns = 1 / larger(turns, all(T(1e-20)));
+    if constexpr (kind == Kind::clump) { // along y
+        const auto [across, all_ways] = facing_of<kind>(facing);
+        const V3<W> du = W(all_ways * more) * u;
+        const W s_one = all_ways * one, dn = across * (one + more * u.y * u.y);
+        out.D = {s_one + du.x * u.x, du.x * u.y, du.x * u.z, s_one + du.y * u.y + dn, du.y * u.z, s_one + du.z * u.z};
+        out.force = s_one * u + out.D * ahead;
+        out.force.y = out.force.y + across * one * u.y;
+    } else if constexpr (kind == Kind::leaf) {
+        const V3<W>&n = R.y, &x = R.x;
         const W along = dot(u, n);
-        const auto [across, all_ways] = facing_of<kind>(facing.degree);
+        const auto [across, all_ways] = facing_of<kind>(facing);
         const W s_one = all_ways * one;
         const V3<W> dn = W(across * (one + more * along * along)) * n, du = W(all_ways * more) * u;
         out.D = {s_one + du.x * u.x + dn.x * n.x, du.x * u.y + dn.x * n.y, du.x * u.z + dn.x * n.z,
                  s_one + du.y * u.y + dn.y * n.y, du.y * u.z + dn.y * n.z, s_one + du.z * u.z + dn.z * n.z};
         out.force = W(across * one * along) * n + s_one * u + out.D * ahead;
-        const V3<W> hx = W(2 * across * one * turns * s.speed) * x;
+        const V3<W> hx = W(2 * across * one * arm * s.speed) * x;
         H = H + Symmetric<W>{hx.x * x.x, hx.x * x.y, hx.x * x.z, hx.y * x.y, hx.y * x.z, hx.z * x.z};
     } else {
         V3<W> across = u;
@@ -121,23 +115,23 @@ BOUGH_FORCE W spin_rate(const W& scale, const W& mass, const W& folded) {
 
 // air_work_bound without leaves' own. U: the wind's velocity, speed2 its square. relative: u.
 template <Kind kind, class W, class T = RealOf<W>>
-BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& relative, const W& degree) {
+BOUGH_FORCE W air_work_bound(T h, const W& scale, const W& speed2, const V3<W>& relative, const W& facing) {
     W most{};
     if constexpr (has_face(kind)) most = T(0.25) * root(dot(relative, relative)) * speed2;
-    if constexpr (kind == Kind::clump) most = facing_of<kind>(degree).along * most;
+    if constexpr (kind == Kind::clump) most = facing_of<kind>(facing).along * most;
     if constexpr (kind != Kind::leaf) {
         const W others = T(4.0 / 27) * root(speed2) * speed2;
         if constexpr (kind == Kind::clump)
-            most = most + facing_of<kind>(degree).all_ways * others;
+            most = most + facing_of<kind>(facing).all_ways * others;
         else
             most = others;
     }
     return h * scale * most;
 }
 
-// Returns the force over kappa rho A in the body's own axes, and the speed that scales it (AirForce).
+// Returns the force over kappa rho A in the body's own axes, and the speed that scales it (AirForce). up: the upright there.
 template <Kind kind, class W, class T = RealOf<W>>
-BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, Folds<T> folds, const LeafFace<W>& facing) {
+BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, Folds<T> folds, const W& facing, const V3<W>& up) {
     if constexpr (kind == Kind::branch) {
         speed = root(W(u.x * u.x + u.y * u.y));
         return {speed * u.x, speed * u.y, W{}};
@@ -145,13 +139,12 @@ BOUGH_FORCE V3<W> air_in_body_axes(const V3<W>& u, W& speed, Folds<T> folds, con
         speed = root(dot(u, u));
         speed = unfolding<kind>(folds, speed).share * speed;
         if constexpr (kind == Kind::fruit) return speed * u;
-        const auto [along, all_ways] = facing_of<kind>(facing.degree);
+        const auto [along, all_ways] = facing_of<kind>(facing);
         const W streams = all_ways * speed;
-        if constexpr (kind == Kind::leaf) {
+        if constexpr (kind == Kind::clump)
+            return streams * u + W(along * speed * dot(u, up)) * up;
+        else
             return {streams * u.x, (along + all_ways) * speed * u.y, streams * u.z};
-        } else {
-            return streams * u + W(along * speed * dot(u, facing.normal)) * facing.normal;
-        }
     }
 }
 

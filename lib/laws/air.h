@@ -7,7 +7,8 @@
 //   leaf, petal  |u| ((1 - s) (u.n) n + s u)           (23), first term, and the part s that needs no angle of attack
 //   clump        |u| (c_n (u.n) n + c_u u)
 // s is streaming_drag: a blade that streams with the wind still has the drag of its curled and rough surface. A clump (tree.h) has the mean of its
-// leaves' law. Of their normals m the mean of m m^T is taken for (1 - f)/3 1 + f n n^T, f its Tree::leaf_facing and n its Tree::leaf_normal. Its A is blade_mean of theirs, so that
+// leaves' law. Of their normals m the mean of m m^T is taken for (1 - f)/3 1 + f n n^T, f its Tree::leaf_facing, n the upright: as it leans, its leaves turn about their
+// stalks. Its A is blade_mean of theirs, so that
 //   c_n = f (1 - s) / blade_mean,   c_u = 1 - f (1 - s / blade_mean)
 // Where f is 0 they face all ways, and it meets the air as fruit does. The mean of its drag over all directions does not depend on f.
 // Folding. Leaves roll up and clumps close as the wind rises (Vogel, J. Exp. Bot. 40:941, 1989). Their drag goes with |u|^(2 + E), with Vogel's E
@@ -27,12 +28,11 @@
 // 0.90 to 1.16 times as large (oak, maple; 300 and 3 000 bodies; gusty, storm): it is not made.
 // The mean drag [N] in a steady wind is then
 //                                     5 m/s    10 m/s   20 m/s   E from 5 to 20 m/s
-//   a leaf of 9 cm, all directions    0.0149   0.0315   0.0605   -0.99
-//   a clump of 14, 30 cm              0.159    0.356    0.823    -0.81
-//   maple, whole (98 000 bodies)      3080     8240     24800    -0.49     its foliage alone -0.87
-//   the same on 1 000                 3230     8200     22500    -0.60     -0.72
-//   birch on 1 000                    834      2110     5770     -0.61     -0.80
-// More of the whole tree's drag is that of bare wood, which does not fold: clumps hold their twigs, which fold with them (growth/resolve.h).
+//   a leaf of 9 cm, all directions    0.0142   0.0311   0.0612   -0.94
+//   a clump of 14, 30 cm              0.159    0.356    0.825    -0.81
+//   maple of 20 000 bodies            3000     7980     22900    -0.53     its foliage alone -0.82
+//   maple of 1 000, birch of 1 000    3140 830 7660 2080 20100 5650 -0.66 -0.62, foliage -0.82
+// At 20 000 bodies more of the drag is that of bare wood, which does not fold: clumps hold their twigs, which fold with them (growth/resolve.h).
 // tests/lib/laws/foliage.cpp holds leaf, clump and a crown's foliage within -0.5 and -1.
 // Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges. This gives a torque
 //   -k G |u| (kappa rho A / m) I w,   I the inertia about the centre of mass
@@ -73,26 +73,21 @@ inline double drag_area(const Tree& tree, std::size_t i, Kind kind, double air_d
     return (tree.drag.empty() ? 1 : tree.drag[i]) * drag_area(kind, tree.size[i], air_density, plate_kappa);
 }
 
-// How much the leaves of a clump face one way, and which.
-template <class T> struct LeafFacing {
-    T degree = 0;                            // [1] f, Tree::leaf_facing
-    Vector3<T> normal = Vector3<T>::UnitY(); // body frame, Tree::leaf_normal
-};
-
 // What the laws take of a body.
 template <class T> struct AirBody {
     Kind kind;
-    T drag_area;               // [kg/m] kappa rho A
-    T mass;                    // [kg]
-    Vector3<T> com;            // [m] centre of mass from the joint, body frame
-    LeafFacing<T> facing = {}; // of a clump
+    T drag_area;                             // [kg/m] kappa rho A
+    T mass;                                  // [kg]
+    Vector3<T> com;                          // [m] centre of mass from the joint, body frame
+    T facing = 0;                            // [1] f, Tree::leaf_facing of a clump
+    Vector3<T> normal = Vector3<T>::UnitY(); // n of a clump, in the axes of u: the world's upright
 };
 
 // A blade of this width over length as it meets the air in the mean over its own motion, in which a broad one turns with the wind: a clump of one, which
 // faces its way. Other bodies are as they are.
-template <class T> AirBody<T> streaming(const AirBody<T>& body, double proportion) {
+template <class T> AirBody<T> streaming(const AirBody<T>& body, double proportion, const Matrix3<T>& R_wb) {
     if (!is_flat(body.kind)) return body;
-    return {kind_of_many(proportion), T(blade_mean) * body.drag_area, body.mass, body.com, {T(1)}};
+    return {kind_of_many(proportion), T(blade_mean) * body.drag_area, body.mass, body.com, T(1), R_wb.col(1)};
 }
 
 template <class T> struct AirForce {
@@ -105,23 +100,21 @@ template <class T> T unfolded(Kind kind, T speed) {
     return unfolding(kind, speed).share;
 }
 
-// The law's factors of (u.n) n and of u. f: LeafFacing::degree.
+// The law's factors of (u.n) n and of u. facing: f.
 template <class T> struct Facing { T along, all_ways; };
-template <class T> Facing<T> facing_of(Kind kind, T f) {
+template <class T> Facing<T> facing_of(Kind kind, T facing) {
     if (is_flat(kind)) return {T(1 - streaming_drag), T(streaming_drag)};
-    return {T(facing_along) * f, 1 - T(facing_less) * f};
+    return {T(facing_along) * facing, 1 - T(facing_less) * facing};
 }
 // True for a body whose force depends on its normal.
-template <class T> bool has_face(Kind kind, T f) {
-    return is_flat(kind) || (stands_for_many(kind) && f > 0);
-}
-// n, world.
-template <class T> Vector3<T> face_normal(Kind kind, const Matrix3<T>& R_wb, const LeafFacing<T>& facing) {
-    return is_flat(kind) ? Vector3<T>(R_wb.col(1)) : Vector3<T>(R_wb * facing.normal);
+template <class T> bool has_face(Kind kind, T facing) {
+    return is_flat(kind) || (stands_for_many(kind) && facing > 0);
 }
 
+// R_wb: world from body; or, as for all that is below, the identity where u, and normal, are in the body's axes. facing, normal: of a clump (AirBody).
 template <class T>
-AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, const LeafFacing<T>& facing = {}) {
+AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, T facing = 0,
+                      const Vector3<T>& normal = Vector3<T>::UnitY()) {
     if (kind == Kind::branch) {
         const Vector3<T> t = R_wb.col(2);
         const Vector3<T> across = u - u.dot(t) * t;
@@ -129,25 +122,26 @@ AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, co
         return {speed * across, speed};
     }
     const T speed = u.norm() * unfolded(kind, u.norm());
-    if (!has_face(kind, facing.degree)) return {speed * u, speed};
-    const Facing<T> c = facing_of(kind, facing.degree);
-    const Vector3<T> normal = face_normal(kind, R_wb, facing);
-    return {speed * (c.along * u.dot(normal) * normal + c.all_ways * u), speed};
+    if (!has_face(kind, facing)) return {speed * u, speed};
+    const Facing<T> c = facing_of(kind, facing);
+    const Vector3<T> n = is_flat(kind) ? Vector3<T>(R_wb.col(1)) : normal;
+    return {speed * (c.along * u.dot(n) * n + c.all_ways * u), speed};
 }
 
 // Returns minus the force's derivative with the body's velocity, over kappa rho A [m/s]: symmetric, positive semidefinite. It is exact for branches
 // and fruit. For what has a face it keeps a symmetric part of the derivative: that of (u.n) n along the normal alone.
 template <class T>
-Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, const LeafFacing<T>& facing = {}) {
+Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, T facing = 0,
+                       const Vector3<T>& normal = Vector3<T>::UnitY()) {
     if (kind != Kind::branch) {
         const T U = u.norm();
         if (!(U > 0)) return Matrix3<T>::Zero();
         const Unfolding<T> G = unfolding(kind, U);
         const T speed = G.share * U, more = G.slope / U;
         const Matrix3<T> all_ways = speed * Matrix3<T>::Identity() + more * (u * u.transpose());
-        if (!has_face(kind, facing.degree)) return all_ways;
-        const Facing<T> c = facing_of(kind, facing.degree);
-        const Vector3<T> n = face_normal(kind, R_wb, facing);
+        if (!has_face(kind, facing)) return all_ways;
+        const Facing<T> c = facing_of(kind, facing);
+        const Vector3<T> n = is_flat(kind) ? Vector3<T>(R_wb.col(1)) : normal;
         const T along = u.dot(n);
         return c.all_ways * all_ways + c.along * (speed + more * along * along) * (n * n.transpose());
     }
@@ -164,16 +158,11 @@ Matrix3<T> air_damping(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, c
 // Returns how fast a plate's moment about its joint may change with its rotation, over kappa rho A and the distance of its centre of mass: [m^2/s^2],
 // symmetric, positive semidefinite. The moment is -(1 - s) G |u| (u.n) x, x the width's axis, and changes by at most (1 - s) G |u|^2 a radian. The
 // result is twice that: a plate held broadside to the wind, which turns at up to |u| over that distance and would spin round in a step, then turns by
-// half a radian at most. Of a clump c_n stands for 1 - s, and x is n x c / |c|, c its centre of mass. The result is zero for all else, whose wood is
-// stiffer than this.
-template <class T> Matrix3<T> air_turning(const AirBody<T>& body, const Matrix3<T>& R_wb, const Vector3<T>& u) {
-    const LeafFacing<T>& facing = body.facing;
-    if (!has_face(body.kind, facing.degree)) return Matrix3<T>::Zero();
-    const T most = facing_of(body.kind, facing.degree).along * unfolded(body.kind, u.norm()) * u.squaredNorm();
-    if (is_flat(body.kind)) return 2 * most * (R_wb.col(0) * R_wb.col(0).transpose());
-    const Vector3<T> x = R_wb * facing.normal.cross(body.com);
-    const T size = x.norm() * body.com.norm();
-    return size > 0 ? Matrix3<T>(2 * most / size * (x * x.transpose())) : Matrix3<T>::Zero();
+// half a radian at most. The result is zero for all else, whose force does not turn with it, or whose wood is stiffer than this.
+template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u) {
+    if (!is_flat(kind)) return Matrix3<T>::Zero();
+    const T most = T(1 - streaming_drag) * unfolded(kind, u.norm()) * u.squaredNorm();
+    return 2 * most * (R_wb.col(0) * R_wb.col(0).transpose());
 }
 
 // [N m/rad] Returns how the drag of all that a body carries, its own included, resists the body's turning where the drag pulls outward. What hangs in

@@ -1,7 +1,7 @@
 // air_load.h: all that the air does to one body: the sum of its laws (air.h, leaf_air.h). Whatever steps, guards, estimates or checks a tree takes
 // the air from here and only adds it up. The analytic step takes it in parts (parted_air.h); lanes have lanes/wide_air.h and wide_leaf.h.
 //
-// u: the wind's velocity less the body's at its centre of mass; R: world from body, or the identity where u is in the body's axes.
+// u: the wind's velocity less the body's at its centre of mass; R: world from body, or the identity where u, and AirBody::normal, are in the body's axes.
 // The results are in the axes of u. O(1). Errors none.
 #pragma once
 #include "leaf_air.h"
@@ -21,7 +21,7 @@ template <class T> Matrix3<T> central_inertia(T mass, const Matrix3<T>& J, const
 
 template <class T>
 AirLoad<T> air_load(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matrix3<T>& R, const Vector3<T>& u) {
-    AirLoad<T> load{body.drag_area * air_force(body.kind, R, u, body.facing).force, Vector3<T>::Zero(),
+    AirLoad<T> load{body.drag_area * air_force(body.kind, R, u, body.facing, body.normal).force, Vector3<T>::Zero(),
                     spin_rate(body.kind, body.drag_area, body.mass, u)};
     if (!has_leaf_air(leaf, body.kind)) return load;
     load.force += leaf_force(leaf, body, R, u);
@@ -35,7 +35,7 @@ AirLoad<T> air_load(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matr
 template <class T>
 Matrix3<T> air_load_damping(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matrix3<T>& R, const Vector3<T>& u,
                             T times = 1) {
-    Matrix3<T> D = times * body.drag_area * air_damping(body.kind, R, u, body.facing);
+    Matrix3<T> D = times * body.drag_area * air_damping(body.kind, R, u, body.facing, body.normal);
     if (has_leaf_air(leaf, body.kind)) D += times * leaf_damping(leaf, body, R, u);
     return D;
 }
@@ -52,8 +52,7 @@ void add_air_turning(const AirBody<T>& body, const LeafTerms<T>& leaf, const Mat
                      const CarriedDrag<T>& carried, T times, Matrix3<T>& turning) {
     if (has_leaf_air(leaf, body.kind)) turning += times * leaf_turning(leaf, body, R, u);
     turning += times * streaming_stiffness(carried.folds, carried.first, u);
-    if (has_face(body.kind, body.facing.degree))
-        turning += times * body.drag_area * body.com.norm() * air_turning(body, R, u);
+    if (is_flat(body.kind)) turning += times * body.drag_area * body.com.norm() * air_turning(body.kind, R, u);
 }
 
 // [J] Returns the most work that the air's force can do on a body in a time h, whatever the body does. Its power is at most kappa rho A times 4/27
@@ -64,8 +63,8 @@ T air_work_bound(const AirBody<T>& body, const LeafTerms<T>& leaf, T h, const Ve
     const T speed = U.norm();
     const T plate = past * speed * speed / 4, others = T(4.0 / 27) * speed * speed * speed;
     T most = is_flat(body.kind) ? plate : others;
-    if (!is_flat(body.kind) && has_face(body.kind, body.facing.degree)) {
-        const Facing<T> c = facing_of(body.kind, body.facing.degree);
+    if (!is_flat(body.kind) && has_face(body.kind, body.facing)) {
+        const Facing<T> c = facing_of(body.kind, body.facing);
         most = c.along * plate + c.all_ways * others;
     }
     const T limit = h * body.drag_area * most;
@@ -79,7 +78,7 @@ template <class T> struct AirPeak {
 };
 template <class T>
 AirPeak<T> air_peak(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matrix3<T>& R, const Vector3<T>& u) {
-    if (!is_flat(body.kind)) return {body.drag_area * air_force(body.kind, R, u, body.facing).force, 0};
+    if (!is_flat(body.kind)) return {body.drag_area * air_force(body.kind, R, u, body.facing, body.normal).force, 0};
     const T speed = u.norm();
     const LeafPeak<T> more = has_leaf_air(leaf, body.kind) ? leaf_peak(leaf, body, speed) : LeafPeak<T>{0, 0};
     const Vector3<T> f = (body.drag_area * speed + more.force) * u;

@@ -33,9 +33,9 @@ template <class T>
 PartedAir<T> parted_air(const AirBody<T>& body, const LeafTerms<T>& leaf, const Matrix3<T>& R, const Matrix3<T>& J,
                         T arm, const AirPast<T>& air) {
     const Vector3<T> c = R * body.com;
-    const AirForce<T> still = air_force(body.kind, R, air.still, body.facing),
-                      moving = air_force(body.kind, R, air.moving, body.facing);
-    const Facing<T> face = facing_of(body.kind, body.facing.degree);
+    const AirForce<T> still = air_force(body.kind, R, air.still, body.facing, body.normal),
+                      moving = air_force(body.kind, R, air.moving, body.facing, body.normal);
+    const Facing<T> face = facing_of(body.kind, body.facing);
     const T scale = body.drag_area, most = (face.along + face.all_ways) * scale; // of any direction
     PartedAir<T> load;
     load.force = scale * still.force;

@@ -119,13 +119,6 @@ public:
                 });
     }
 
-    Rules& unit(const char* field, const std::vector<Vec3>& values) {
-        return all_finite(field, values)
-            .each(
-                field, values, [](std::size_t, const Vec3& v) { return std::abs(v.norm() - 1) <= 1e-6; },
-                [](std::size_t, const Vec3& v) { return "has length " + text(v.norm()) + ", expected a unit vector"; });
-    }
-
     Rules& rule(bool holds, const std::string& field, std::int64_t index, const std::string& message) {
         if (!defect && !holds) broken(field, index, message);
         return *this;
@@ -267,7 +260,6 @@ std::optional<Defect> check(const Tree& tree) {
         .length("leaf_length", tree.leaf_length, tree.leaf_length.empty() ? 0 : n, "none, or one for each body")
         .length("leaf_width", tree.leaf_width, tree.leaf_length.size(), "as many as /leaf_length")
         .length("leaf_facing", tree.leaf_facing, tree.leaf_facing.empty() ? 0 : n, "none, or one for each body")
-        .length("leaf_normal", tree.leaf_normal, tree.leaf_normal.empty() ? 0 : n, "none, or one for each body")
         .length("drag", tree.drag, tree.drag.empty() ? 0 : n, "none, or one for each body");
     if (rules.defect) return rules.defect;
 
@@ -303,7 +295,6 @@ std::optional<Defect> check(const Tree& tree) {
     rules.between("leaf_length", tree.leaf_length, 0, largest_length)
         .between("leaf_width", tree.leaf_width, 0, largest_length)
         .between("leaf_facing", tree.leaf_facing, 0, 1)
-        .unit("leaf_normal", tree.leaf_normal)
         .between("drag", tree.drag, 0, unbounded);
     check_colors(rules, tree.color);
     return rules.defect;

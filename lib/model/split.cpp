@@ -24,7 +24,6 @@ void copy_body(Tree& to, const Tree& from, std::size_t i, std::int32_t parent) {
     if (!from.leaf_length.empty()) to.leaf_length.push_back(from.leaf_length[i]);
     if (!from.leaf_width.empty()) to.leaf_width.push_back(from.leaf_width[i]);
     if (!from.leaf_facing.empty()) to.leaf_facing.push_back(from.leaf_facing[i]);
-    if (!from.leaf_normal.empty()) to.leaf_normal.push_back(from.leaf_normal[i]);
     if (!from.drag.empty()) to.drag.push_back(from.drag[i]);
 }
 

@@ -40,7 +40,6 @@ void Tree::resize(std::size_t bodies) {
     if (!leaf_length.empty()) leaf_length.resize(bodies, 0);
     if (!leaf_width.empty()) leaf_width.resize(bodies, 0);
     if (!leaf_facing.empty()) leaf_facing.resize(bodies, 0);
-    if (!leaf_normal.empty()) leaf_normal.resize(bodies, Vec3::UnitY());
     if (!drag.empty()) drag.resize(bodies, 1);
 }
 
@@ -72,7 +71,6 @@ std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double ya
     add(tree.leaf_length, more.leaf_length, first, more.size_bodies(), 0.0);
     add(tree.leaf_width, more.leaf_width, first, more.size_bodies(), 0.0);
     add(tree.leaf_facing, more.leaf_facing, first, more.size_bodies(), 0.0);
-    add(tree.leaf_normal, more.leaf_normal, first, more.size_bodies(), Vec3(Vec3::UnitY()));
     add(tree.drag, more.drag, first, more.size_bodies(), 1.0);
 
     place(tree, position, yaw, first);

@@ -43,11 +43,10 @@ struct Tree {
     std::vector<double> leaf_length,
         leaf_width; // [m] of each leaf of a clump whose size says how far they spread (resolve.h); 0: the size is that of a
                     // blade of all their area
-    // [1] 0..1, of a clump: (3 <(n.m)^2> - 1) / 2, the mean over its leaves, n their normals, m leaf_normal: 0 facing all ways, 1 all along m
-    // (air.h); not read of other bodies
+    // [1] 0..1, of a clump: (3 <m_y^2> - 1) / 2, the mean over its leaves, m their normals: 0 facing all ways, 1 all up and down (air.h);
+    // not read of other bodies
     std::vector<double> leaf_facing;
-    std::vector<Vec3> leaf_normal; // unit, body frame, of a clump: the way that its leaves face; empty: its y
-    std::vector<double> drag;      // [1] the air takes hold of so many times the area of its size; empty: 1 each
+    std::vector<double> drag; // [1] the air takes hold of so many times the area of its size; empty: 1 each
 
     std::string name;        // what the tree is called
     std::string material;    // wood preset or file that gave mass and stiffness

@@ -9,16 +9,15 @@
 
 namespace bough {
 
-// Returns how much a clump's leaves face one way, and which; of other bodies not at all.
-template <class Real, class T> LeafFacing<Real> facing_of(const Plan<T>& plan, std::size_t body) {
-    if (plan.facing.empty()) return {};
-    return {Real(plan.facing[body]), plan.normal[body].template cast<Real>()};
+// Returns Tree::leaf_facing of a clump, and 0 for other bodies.
+template <class T> T facing_of(const Plan<T>& plan, std::size_t body) {
+    return plan.facing.empty() ? T(0) : plan.facing[body];
 }
 
 // Returns the body as the air's laws take it, in a run's precision or another.
 template <class Real, class T> AirBody<Real> air_body(const Plan<T>& plan, std::size_t body) {
     return {plan.kind[body], Real(plan.drag_area[body]), Real(plan.mass[body]), plan.com[body].template cast<Real>(),
-            facing_of<Real>(plan, body)};
+            Real(facing_of(plan, body))};
 }
 
 // The same of a tree that no plan has been made of.

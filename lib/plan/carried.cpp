@@ -5,12 +5,6 @@
 
 namespace bough {
 
-template <class T> void make_faces(Plan<T>& plan) {
-    if (!plan.facing.empty()) return;
-    plan.facing.assign(plan.bodies, T(0));
-    plan.normal.assign(plan.bodies, Vector3<T>::UnitY());
-}
-
 template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree) {
     plan.kind.reserve(plan.bodies);
     plan.drag_area.reserve(plan.bodies);
@@ -20,11 +14,9 @@ template <class T> void plan_surfaces(Plan<T>& plan, const Tree& tree) {
         plan.drag_area.push_back(T(drag_area(tree, i, plan.kind[i], scene.air_density, plate_kappa(scene))));
     }
     for (std::size_t i = 0; i < tree.leaf_facing.size(); ++i) {
-        const LeafFacing<double> facing = facing_in_air(tree, i);
-        if (!(facing.degree > 0)) continue;
-        make_faces(plan);
-        plan.facing[i] = T(facing.degree);
-        plan.normal[i] = facing.normal.template cast<T>();
+        if (!(facing_in_air(tree, i) > 0)) continue;
+        if (plan.facing.empty()) plan.facing.assign(plan.bodies, T(0));
+        plan.facing[i] = T(facing_in_air(tree, i));
     }
 }
 
@@ -42,7 +34,7 @@ template <class T> std::vector<Vec3> carried_drag(const Plan<T>& plan, const Tre
     for (std::size_t i = plan.bodies; i-- > 0;) {
         const Kind kind = kind_in_air(tree, i);
         drag[i] += double(plan.drag_area[i]) * (is_flat(kind) ? blade_mean : 1);
-        P[i] = double(plan.drag_area[i]) * facing_of(kind, facing_in_air(tree, i).degree).all_ways * tree.com[i];
+        P[i] = double(plan.drag_area[i]) * facing_of(kind, facing_in_air(tree, i)).all_ways * tree.com[i];
         if (tree.parent[i] >= 0) drag[std::size_t(tree.parent[i])] += drag[i];
     }
     for (std::size_t i = 0; i < plan.bodies; ++i)
@@ -52,7 +44,6 @@ template <class T> std::vector<Vec3> carried_drag(const Plan<T>& plan, const Tre
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void plan_surfaces(Plan<T>&, const Tree&);                                                                \
-    template void make_faces(Plan<T>&);                                                                                \
     template std::vector<Vec3> carried_moments(const Plan<T>&, const Tree&);                                           \
     template std::vector<Vec3> carried_drag(const Plan<T>&, const Tree&);
 BOUGH_INSTANTIATE(float)

@@ -5,11 +5,8 @@
 
 namespace bough {
 
-// Fills in Plan::kind, drag_area, facing and normal.
+// Fills in Plan::kind, drag_area and facing.
 template <class T> void plan_surfaces(Plan<T>&, const Tree&);
-
-// Gives Plan::facing and normal room, where they have none: no body faces any way.
-template <class T> void make_faces(Plan<T>&);
 
 // [kg m] Returns P_b: the first moment that body b's own turning moves: of its mass and, at its children's joints, their composites. Body axes. Reads
 // c_mass.

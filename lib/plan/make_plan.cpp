@@ -73,14 +73,14 @@ template <class T> void plan_bodies(Plan<T>& plan, const Tree& tree, Tree* own) 
     give_back(own, &Tree::mass, &Tree::damping);
     plan.foliage = std::any_of(plan.kind.begin(), plan.kind.end(), is_foliage);
     plan.parent = tree.parent;
-    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid, &Tree::leaf_count, &Tree::leaf_facing, &Tree::leaf_normal);
+    give_back(own, &Tree::kind, &Tree::parent, &Tree::rigid, &Tree::leaf_count, &Tree::leaf_facing);
 }
 
 // With lanes that hold them all, and nobody who reads poses.
 template <class T> void give_back_bodies(Plan<T>& plan) {
     const auto all = [](auto&... arrays) { (give_back(arrays), ...); };
     all(plan.parent, plan.joint_position, plan.R_pj, plan.mass, plan.c_mass, plan.com, plan.inertia_joint, plan.K,
-        plan.beta, plan.drag_area, plan.facing, plan.normal, plan.kind, plan.shelter, plan.clock);
+        plan.beta, plan.drag_area, plan.facing, plan.kind, plan.shelter, plan.clock);
 }
 
 template <class T> void plan_joint_limit(Plan<T>& plan, const Tree& tree) {
@@ -249,7 +249,7 @@ Plan<T> plan_tree(const Tree& tree, Tree* own, const std::vector<TreeRange>& ran
     }
     plan.field = plan.wind && (varies_over_ground(*scene.wind) || !plan.clock.empty());
     if (plan.wind) plan_surfaces(plan, tree);
-    if (plan.wind && wishes.faces) make_faces(plan);
+    if (plan.wind && wishes.faces && plan.facing.empty()) plan.facing.assign(plan.bodies, T(0));
     plan_composite_masses(plan, tree);
     stepper.take_constants(plan, tree);
     give_back(own, &Tree::size);

@@ -78,9 +78,8 @@ template <class T> struct Plan {
     std::vector<MovedTree> moved;
 
     // Wind.
-    std::vector<T> drag_area;       // [kg/m] kappa rho A of (21), (22), (23)
-    std::vector<T> facing;          // [1] of clumps (Tree::leaf_facing), else 0; empty: 0 of all
-    std::vector<Vector3<T>> normal; // likewise Tree::leaf_normal, else y; as many
+    std::vector<T> drag_area; // [kg/m] kappa rho A of (21), (22), (23)
+    std::vector<T> facing;    // [1] of clumps (Tree::leaf_facing), else 0; empty: 0 of all
     std::vector<Kind> kind;
     bool foliage = false;   // some body is a leaf, a petal or a clump: it folds, and the air takes its turning (air.h)
     LeafTerms<T> leaf;      // on with /wind and /leaves (leaf_air.h)

@@ -51,8 +51,9 @@ void copy_leaders(const Tree& whole, Reduced& r) {
     t.resize(r.leader.size());
     if (!whole.load.empty()) t.load.assign(r.leader.size(), 0);
     if (!whole.leaf_count.empty()) t.leaf_count.assign(r.leader.size(), 1);
+    if (!whole.leaf_length.empty()) t.leaf_length.assign(r.leader.size(), 0);
+    if (!whole.leaf_width.empty()) t.leaf_width.assign(r.leader.size(), 0);
     if (!whole.leaf_facing.empty()) t.leaf_facing.assign(r.leader.size(), 0);
-    if (!whole.leaf_normal.empty()) t.leaf_normal.assign(r.leader.size(), Vec3::UnitY());
     if (!whole.drag.empty()) t.drag.assign(r.leader.size(), 1);
     for (std::size_t g = 0; g < r.leader.size(); ++g) {
         const auto i = std::size_t(r.leader[g]);
@@ -77,8 +78,9 @@ void copy_leaders(const Tree& whole, Reduced& r) {
         t.level[g] = whole.level[i];
         t.s[g] = whole.s[i];
         if (!whole.leaf_count.empty()) t.leaf_count[g] = whole.leaf_count[i];
+        if (!whole.leaf_length.empty()) t.leaf_length[g] = whole.leaf_length[i];
+        if (!whole.leaf_width.empty()) t.leaf_width[g] = whole.leaf_width[i];
         if (!whole.leaf_facing.empty()) t.leaf_facing[g] = whole.leaf_facing[i];
-        if (!whole.leaf_normal.empty()) t.leaf_normal[g] = whole.leaf_normal[i];
         if (!whole.drag.empty()) t.drag[g] = whole.drag[i];
     }
 }

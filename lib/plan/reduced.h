@@ -1,6 +1,5 @@
 // reduced.h: a tree whose rigid bodies are joined with what they hang on, and where each body is on it (reduce.h makes it).
 #pragma once
-#include "../laws/air.h"
 #include "../model/scene.h"
 #include "../model/tree.h"
 #include <vector>
@@ -16,10 +15,9 @@ inline Kind kind_in_air(const Tree& tree, std::size_t i) {
     return is_clump(tree, i) ? kind_of_many(leaf_proportion(tree, i)) : tree.kind[i];
 }
 
-// Returns how much a clump's leaves face one way, and which; of other bodies not at all.
-inline LeafFacing<double> facing_in_air(const Tree& tree, std::size_t i) {
-    if (tree.leaf_facing.empty() || !stands_for_many(kind_in_air(tree, i))) return {};
-    return {tree.leaf_facing[i], tree.leaf_normal.empty() ? Vec3(Vec3::UnitY()) : tree.leaf_normal[i]};
+// Returns how much a clump's leaves face one way, and 0 for other bodies.
+inline double facing_in_air(const Tree& tree, std::size_t i) {
+    return tree.leaf_facing.empty() || !stands_for_many(kind_in_air(tree, i)) ? 0 : tree.leaf_facing[i];
 }
 
 struct Reduced {

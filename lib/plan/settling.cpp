@@ -77,8 +77,9 @@ FirstSway first_sway(const Tree& tree, const TreeRange& range, const Scene& scen
         moved += own.mass[i] * u.squaredNorm();
         lost += scene.damping_scale * tree.damping[whole] * theta.dot(own.stiffness[i].cwiseProduct(theta));
         if (!scene.wind) continue;
-        const AirBody<double> mean = streaming(air_body(tree, whole, scene), leaf_proportion(tree, whole));
-        const Mat3 D = air_damping(mean.kind, before.R[i], mean_wind(*scene.wind, before.com[i]), mean.facing);
+        const AirBody<double> mean = streaming(air_body(tree, whole, scene), leaf_proportion(tree, whole), before.R[i]);
+        const Mat3 D =
+            air_damping(mean.kind, before.R[i], mean_wind(*scene.wind, before.com[i]), mean.facing, mean.normal);
         lost += mean.drag_area * u.dot(D * u);
     }
     if (!(pushed > 0) || !(moved > 0) || !std::isfinite(moved)) return {}; // it buckles

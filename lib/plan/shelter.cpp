@@ -63,7 +63,7 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan, const std
     const auto share = [&](std::size_t i, double u) {
         const Vec3 past = u * speed * e;
         return double(plan.drag_area[i]) / density *
-               air_force(plan.kind[i], pose.R[i], past, facing_of<double>(plan, i)).force.dot(e) /
+               air_force(plan.kind[i], pose.R[i], past, double(facing_of(plan, i))).force.dot(e) /
                (past.squaredNorm() * cell * cell);
     };
     const auto bodies_in = [&](std::size_t i) { return tree_drag.empty() ? 1.0 : std::max(tree_drag[i], 1.0); };

@@ -33,7 +33,6 @@ struct Fingerprint {
         for (const double load : tree.load) add(load);
         for (const std::int32_t leaves : tree.leaf_count) add(std::uint64_t(leaves)); // a clump has an air of its own
         for (const double facing : tree.leaf_facing) add(facing);
-        for (const Vec3& normal : tree.leaf_normal) add(normal);
         for (const double drag : tree.drag) add(drag);
     }
     void add(const Wind& w) {

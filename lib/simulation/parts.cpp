@@ -39,7 +39,7 @@ std::vector<TreeSize> measure(const Scene& scene, const TreeSource& tree_of, Par
         if (!scene.wind) continue;
         for (std::size_t i = 0; i < alone.tree.size_bodies(); ++i) {
             part.foliage |= is_foliage(kind_in_air(alone.tree, i));
-            part.faces |= facing_in_air(alone.tree, i).degree > 0;
+            part.faces |= facing_in_air(alone.tree, i) > 0;
         }
         const WindReach reach = wind_reach(alone.tree, alone.ranges, scene_of_tree(scene, k));
         part.top = std::max(part.top, reach.top);

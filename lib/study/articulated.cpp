@@ -63,7 +63,8 @@ void place_body(const Plan<double>& plan, const ArticulatedBody& parent, Articul
 void add_air(const Plan<double>& plan, const ArticulatedPass& pass, ArticulatedBody& b, std::size_t i,
              const Vec3& a_own, double h) {
     static const Mat3 own_axes = Mat3::Identity();
-    const AirBody<double> body = air_body<double>(plan, i);
+    AirBody<double> body = air_body<double>(plan, i);
+    body.normal = b.R_wb.row(1); // the upright in own axes
     const Vec3& c = plan.com[i];
     Vec3 place = b.x_w;
     if (plan.field)

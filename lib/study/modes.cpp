@@ -85,8 +85,8 @@ std::vector<AirDamping> air_on(const Tree& tree, const Scene& scene, const Small
         Vec3 u = Vec3::Zero();
         if (scene.wind) u = mean_wind(*scene.wind, motion.joints()[i] + R * tree.com[i]);
         const AirBody<double> body = air_body(tree, i, scene);
-        const AirBody<double> mean = streaming(body, leaf_proportion(tree, i));
-        damping[i].drag = mean.drag_area * air_damping(mean.kind, R, u, mean.facing);
+        const AirBody<double> mean = streaming(body, leaf_proportion(tree, i), R);
+        damping[i].drag = mean.drag_area * air_damping(mean.kind, R, u, mean.facing, mean.normal);
         if (has_leaf_air(terms, body.kind)) damping[i].drag += leaf_damping(terms, body, R, u);
         damping[i].spin = air_load(body, terms, R, u).spin * I;
     }

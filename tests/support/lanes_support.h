@@ -73,17 +73,13 @@ inline Tree grown(std::int64_t bodies) {
     return segment(grow_bodies(default_growth(), 7, {true, false, true}, bodies), wood_presets().front(), {});
 }
 
-// The tree with its clumps' leaves facing a way and by a share of their own.
+// The tree with its clumps' leaves facing one way, each by a share of its own.
 inline Tree facing(Tree tree) {
     make_tree::Dice dice{std::mt19937(9)};
     tree.leaf_facing.assign(tree.size_bodies(), 0);
-    tree.leaf_normal.assign(tree.size_bodies(), Vec3::UnitY());
     std::size_t clumps = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i)
-        if (is_clump(tree, i)) {
-            tree.leaf_facing[i] = dice(0, 1), ++clumps;
-            tree.leaf_normal[i] = Vec3(dice(-1, 1), 1.1, dice(-1, 1)).normalized();
-        }
+        if (is_clump(tree, i)) tree.leaf_facing[i] = dice(0, 1), ++clumps;
     if (clumps == 0) throw std::logic_error("facing: no clumps");
     return tree;
 }

@@ -176,7 +176,6 @@ Tree forest(const std::vector<Tree>& trees) {
         add_some(t.leaf_length, more.leaf_length, 0.0);
         add_some(t.leaf_width, more.leaf_width, 0.0);
         add_some(t.leaf_facing, more.leaf_facing, 0.0);
-        add_some(t.leaf_normal, more.leaf_normal, Vec3(Vec3::UnitY()));
         add_some(t.drag, more.drag, 1.0);
     }
     return t;

@@ -40,8 +40,9 @@ std::vector<std::string> said(std::uint64_t each, std::int64_t frames, const std
 
 TEST_CASE("More than 2 GB are told once, after the second frame, with what is smaller") {
     CHECK(said(20'000'000, 100, "less").empty());
-    CHECK(said(20'000'001, 100, "less") == std::vector<std::string>{"-o: will be about 2.0 GB, 20 MB a frame; less"});
-    CHECK(said(1'000'000'000, 3, "") == std::vector<std::string>{"-o: will be about 3.0 GB, 1.0 GB a frame"});
+    CHECK(said(20'000'001, 100, "less") ==
+          std::vector<std::string>{"the output will be about 2.0 GB, 20 MB a frame; less"});
+    CHECK(said(1'000'000'000, 3, "") == std::vector<std::string>{"the output will be about 3.0 GB, 1.0 GB a frame"});
 }
 
 TEST_CASE("What is told to be smaller is what the options have not done already") {

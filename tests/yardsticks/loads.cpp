@@ -32,8 +32,8 @@ Vec3 air_force(const Tree& tree, std::size_t i, double density, const Mat3& R, c
     case bough::Kind::fruit:
         return 0.235 * density * std::numbers::pi * size[1] * size[1] * u.norm() * u;
     default: {
-        const Vec3 normal = R.col(1);
         const bool clump = !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
+        const Vec3 normal = clump ? Vec3(Vec3::UnitY()) : Vec3(R.col(1)); // a clump's leaves keep theirs as it leans
         // At 7.5 m/s; a quarter of the drag from all sides. A clump's leaves turn with the wind besides, at 7.2 m/s.
         const double turned = clump ? 0.66 + 0.34 / (1 + std::pow(u.norm() / 7.2, 4)) : 1;
         const double folded = turned * u.norm() / (1 + u.norm() / 7.5);

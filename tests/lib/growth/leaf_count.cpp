@@ -140,50 +140,46 @@ TEST_CASE(
     const Tree plain = segment(trunk_with_leaves({0.1, 0.1}), wood(), {});
     a.leaf_facing.assign(a.size_bodies(), 0);
     a.leaf_facing.back() = 0.4;
-    const Vec3 up = Vec3::UnitY(), other(0.6, 0, -0.8);
-    a.leaf_normal.assign(a.size_bodies(), up);
-    a.leaf_normal.back() = other;
     Tree joined;
     append(joined, plain, Vec3::Zero(), 0);
     CHECK(joined.leaf_facing.empty());
-    CHECK(joined.leaf_normal.empty());
     append(joined, a, Vec3(3, 0, 0), 1);
     append(joined, plain, Vec3(6, 0, 0), 0);
     REQUIRE(joined.leaf_facing.size() == joined.size_bodies());
     CHECK(joined.leaf_facing[plain.size_bodies() + a.size_bodies() - 1] == 0.4);
     CHECK(std::count(joined.leaf_facing.begin(), joined.leaf_facing.end(), 0) ==
           std::ptrdiff_t(joined.size_bodies()) - 1);
-    REQUIRE(joined.leaf_normal.size() == joined.size_bodies());
-    CHECK(joined.leaf_normal[plain.size_bodies() + a.size_bodies() - 1] == other);
-    CHECK(std::count(joined.leaf_normal.begin(), joined.leaf_normal.end(), up) ==
-          std::ptrdiff_t(joined.size_bodies()) - 1);
     CHECK_FALSE(check(joined));
     CHECK(split_roots(joined)[1].leaf_facing == a.leaf_facing);
-    CHECK(split_roots(joined)[1].leaf_normal == a.leaf_normal);
 
     Tree held = a;
     held.rigid.assign(a.size_bodies(), 0);
     held.rigid[1] = 1; // a piece of the trunk
     const Reduced r = reduce(held, {{0, held.size_bodies(), 0}}, 0.6);
-    for (std::size_t g = 0; g < r.leader.size(); ++g) {
+    for (std::size_t g = 0; g < r.leader.size(); ++g)
         CHECK(r.tree.leaf_facing[g] == a.leaf_facing[std::size_t(r.leader[g])]);
-        CHECK(r.tree.leaf_normal[g] == a.leaf_normal[std::size_t(r.leader[g])]);
+    // Needles that spread wide are many of them a tuft, also where something is held.
+    Tree needles = held;
+    needles.leaf_length.assign(a.size_bodies(), 0);
+    needles.leaf_width.assign(a.size_bodies(), 0);
+    std::size_t tufts = 0;
+    for (std::size_t i = 0; i < a.size_bodies(); ++i)
+        if (is_clump(a, i)) needles.leaf_length[i] = 0.1, needles.leaf_width[i] = 0.002;
+    const Reduced of_needles = reduce(needles, {{0, held.size_bodies(), 0}}, 0.6);
+    for (std::size_t g = 0; g < of_needles.leader.size(); ++g) {
+        CHECK(kind_in_air(of_needles.tree, g) == kind_in_air(needles, std::size_t(of_needles.leader[g])));
+        tufts += kind_in_air(of_needles.tree, g) == Kind::tuft;
     }
+    CHECK(tufts > 0);
     CHECK(shown_tree(a, {2}, {Ball{}}).leaf_facing.size() == a.size_bodies() + 1);
-    CHECK(shown_tree(a, {2}, {Ball{}}).leaf_normal.size() == a.size_bodies() + 1);
 
     Tree bare = a;
     bare.leaf_facing.clear();
-    bare.leaf_normal.clear();
     for (const Form form : {Form::json, Form::safetensors}) {
-        const Tree back = read_tree(written([&](Output& o) { write_tree(o, a, form); }), "t");
-        CHECK(back.leaf_facing == a.leaf_facing);
-        CHECK(back.leaf_normal == a.leaf_normal);
+        CHECK(read_tree(written([&](Output& o) { write_tree(o, a, form); }), "t").leaf_facing == a.leaf_facing);
         const std::string without = written([&](Output& o) { write_tree(o, bare, form); });
         CHECK(without.find("leaf_facing") == std::string::npos);
-        CHECK(without.find("leaf_normal") == std::string::npos);
         CHECK(read_tree(without, "t").leaf_facing.empty());
-        CHECK(read_tree(without, "t").leaf_normal.empty());
     }
 }
 

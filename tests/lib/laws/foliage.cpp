@@ -59,7 +59,7 @@ double mean_drag(const Tree& tree, double speed, double dt, double seconds) {
             if (!is_foliage(plan.kind[i])) continue;
             const Vec3 c = state.R_wb[i] * plan.com[i];
             const Vec3 u = scene.wind->velocity - state.v_w[i] - state.omega_w[i].cross(c);
-            sum += plan.drag_area[i] * air_force(plan.kind[i], state.R_wb[i], u, facing_of<double>(plan, i)).force.x();
+            sum += plan.drag_area[i] * air_force(plan.kind[i], state.R_wb[i], u, facing_of(plan, i)).force.x();
         }
     }
     return sum / (steps - (steps + 1) / 2);

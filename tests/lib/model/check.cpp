@@ -75,17 +75,6 @@ TEST_CASE("each rule of a tree") {
     CHECK(broken(good, facing({-1e-9})) == "leaf_facing/0");
     CHECK(broken(good, facing({0, 0, not_a_number})) == "leaf_facing/2");
     CHECK(broken(good, [](Tree& t) { t.leaf_facing = {0.5}; }) == "leaf_facing");
-    const auto normal = [](const Vec3& second) {
-        return [second](Tree& t) {
-            t.leaf_normal.assign(t.size_bodies(), Vec3::UnitY());
-            t.leaf_normal[1] = second;
-        };
-    };
-    CHECK(broken(good, normal({0, 0.6, -0.8})) == "");
-    CHECK(broken(good, normal({0, 0.6, -0.81})) == "leaf_normal/1");
-    CHECK(broken(good, normal(Vec3::Zero())) == "leaf_normal/1");
-    CHECK(broken(good, normal({0, not_a_number, 1})) == "leaf_normal/1");
-    CHECK(broken(good, [](Tree& t) { t.leaf_normal = {Vec3::UnitX()}; }) == "leaf_normal");
 }
 
 TEST_CASE("an inertia is one that a body can have") {

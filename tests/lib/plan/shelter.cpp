@@ -48,9 +48,9 @@ TEST_CASE("the momentum taken from the columns is the sum of the drags on the st
             // Drags: what external_forces puts on a body at rest, along the wind.
             double drags = 0;
             for (std::size_t i = 0; i < plan.bodies; ++i)
-                drags += plan.drag_area[i] * air_force<double>(plan.kind[i], state.R_wb[i], plan.shelter[i] * velocity,
-                                                               facing_of<double>(plan, i))
-                                                 .force.dot(e);
+                drags += plan.drag_area[i] *
+                         air_force<double>(plan.kind[i], state.R_wb[i], plan.shelter[i] * velocity, facing_of(plan, i))
+                             .force.dot(e);
             // Columns: the air that leaves each, from the last body in it and what that body itself holds back.
             struct Last {
                 double along = -1e9, flux = 0;
@@ -65,7 +65,7 @@ TEST_CASE("the momentum taken from the columns is the sum of the drags on the st
                 const double u = plan.shelter[i] * velocity.norm();
                 const double held =
                     plan.drag_area[i] *
-                    air_force<double>(plan.kind[i], state.R_wb[i], u * e, facing_of<double>(plan, i)).force.dot(e);
+                    air_force<double>(plan.kind[i], state.R_wb[i], u * e, facing_of(plan, i)).force.dot(e);
                 // A clump's speed is one that the column has within it, and u^2 falls by exp(-s) from its one side to the other; so is
                 // that of wood which stands for other wood.
                 const auto many = [&](std::size_t k) {
