@@ -175,13 +175,8 @@ struct AnalyticChains : SweepParts<T, AnalyticRows<T>> {
             out.set(loaded::drag, W(sway * (speed_1 + speed_0)));
             const W pressing = kind == Kind::branch ? still_speed : speed_0;
             out.set(loaded::wind, W(sway * pressing));
-            if constexpr (kind == Kind::clump) {
-                const auto [along, all_ways] = facing_of<kind>(facing);
-                out.set(loaded::turn, W((all_ways + 2 * along) * scale * pressing * still_speed));
-            } else {
-                constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);
-                out.set(loaded::turn, W(turns * scale * pressing * still_speed));
-            }
+            constexpr T turns = kind == Kind::branch ? T(3) : kind == Kind::leaf ? T(2) : T(1);
+            out.set(loaded::turn, W(turns * largest * pressing * still_speed));
             if constexpr (kind != Kind::branch)
                 if (folds.fold > 0) {
                     W rate = spin_rate<kind>(scale, k.real(constant::mass), speed_1);

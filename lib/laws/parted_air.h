@@ -3,8 +3,9 @@
 //
 // A body is at rest here when it is at rest on its tree's ground. The second part of the force is at most drag |v| with drag = kappa rho A (|u| + |u
 // at rest|) (|u_n| for branches), since || u|u - w|w| || <= (|u| + |w|) |u - w|. The part at rest falls by wind = kappa rho A |u at rest|, over the
-// speed, from rest to going with the wind. Of a clump both are c_n + c_u (air.h) times that. With the body's direction (force and arm both turn with
-// it) the part at rest changes by at most turn = 3, 2, 1, c_u + 2 c_n (branch, leaf, fruit, clump) times kappa rho A |u at rest|^2 a radian.
+// speed, from rest to going with the wind. Of a clump both are c_n + c_u (air.h) times that. With the body's direction the part
+// at rest changes by at most turn = 3, 2, 1, c_u + c_n (branch, leaf, fruit, clump) times kappa rho A |u at rest|^2 a radian. Force and arm turn with it; of
+// fruit and clumps the arm alone.
 // With /leaves a leaf's resistance and torque (leaf_air.h) are parted likewise and add to the same bounds. To drag they add nu m and 2 k |u| over the
 // arm (and nu I, as what it is at that arm), to wind nu m, to turn twice their moments over the arm. The square of the arm,
 // AnalyticPlan::com_distance, then holds the square of the centre of mass's distance and that of the radius of gyration.
@@ -45,9 +46,8 @@ PartedAir<T> parted_air(const AirBody<T>& body, const LeafTerms<T>& leaf, const 
     load.drag = most * (moving.speed + still.speed);
     const T pressing = is_foliage(body.kind) ? still.speed : air.still.norm();
     load.wind = most * pressing;
-    // Force and arm both turn: the change is twice the force for a plate, three times for |u_n| u_n; for a sphere only the arm turns. Of a clump that
-    // is so of c_n and c_u each.
-    const T turns = body.kind == Kind::branch ? T(3) : is_flat(body.kind) ? T(2) : face.all_ways + 2 * face.along;
+    // Force and arm both turn: the change is twice the force for a plate, three times for |u_n| u_n; of spheres and clumps only the arm turns.
+    const T turns = body.kind == Kind::branch ? T(3) : is_flat(body.kind) ? T(2) : face.all_ways + face.along;
     load.turn = turns * scale * pressing * air.still.norm();
     if (!is_foliage(body.kind)) return load;
 

@@ -31,6 +31,8 @@ double area_from_above(const Tree& tree, std::size_t i, const Mat3& R_wb) {
     case Kind::petal:
     case Kind::clump:
     case Kind::tuft:
+        if (is_clump(tree, i))
+            return foliage_area(tree, i) * (1 + (tree.leaf_facing.empty() ? 0 : tree.leaf_facing[i])) / 2;
         return foliage_area(tree, i) * std::abs(R_wb(1, 1));
     case Kind::fruit:
         return sphere_section(size[1]);

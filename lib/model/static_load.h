@@ -3,6 +3,7 @@
 // A body carries kg/m^2 of its kind times the area that it shows from above, +Y, in the drawn pose:
 //   branch       2 r l sin(angle between its axis and the vertical), r the mean of both ends' radii; its end caps left out
 //   leaf, petal  A |n.y|, A the triangle's area, n its normal (the body's y)
+//   clump        A (1 + f) / 2, A of its leaves, f its leaf_facing: |m_y| of those that face up is 1, in the mean of those that face all ways 1/2
 //   fruit        pi r^2
 // The load lies along the body as the body's own mass does: the mass grows by it, the inertia grows in the same ratio, and the centre of mass stays.
 // The load is put on once: what falls off as the body turns, and what one body keeps from another below it, is left out. A start pose then takes the

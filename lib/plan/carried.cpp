@@ -33,8 +33,10 @@ template <class T> std::vector<Vec3> carried_drag(const Plan<T>& plan, const Tre
     std::vector<Vec3> P(plan.bodies);
     for (std::size_t i = plan.bodies; i-- > 0;) {
         const Kind kind = kind_in_air(tree, i);
-        drag[i] += double(plan.drag_area[i]) * (is_flat(kind) ? blade_mean : 1);
-        P[i] = double(plan.drag_area[i]) * facing_of(kind, facing_in_air(tree, i)).all_ways * tree.com[i];
+        const double all_ways =
+            facing_of(kind, facing_in_air(tree, i)).all_ways; // of a clump all that a level wind finds
+        drag[i] += double(plan.drag_area[i]) * (is_flat(kind) ? blade_mean : all_ways);
+        P[i] = double(plan.drag_area[i]) * all_ways * tree.com[i];
         if (tree.parent[i] >= 0) drag[std::size_t(tree.parent[i])] += drag[i];
     }
     for (std::size_t i = 0; i < plan.bodies; ++i)

@@ -97,17 +97,19 @@ void fit_air(const Tree& whole, Reduced& r, const std::vector<std::uint8_t>& joi
         if (own) reach[g] = std::max(reach[g], (r.offset[i] + r.rotation[i] * Vec3(0, 0, whole.size[i][0])).norm());
     });
     const Mat3 one = Mat3::Identity();
-    const DrawnPose drawn = toward.isZero() ? DrawnPose{} : drawn_pose(t);
+    const DrawnPose drawn = drawn_pose(t);
     for (std::size_t g = 0; g < joined.size(); ++g) {
         if (!joined[g]) continue;
         std::array<Vec3, 64> force;
         force.fill(Vec3::Zero());
+        const Vec3 up = drawn.R_wb[g].row(1); // in the group's axes
         for (const std::int32_t member : members[g]) {
             const auto i = std::size_t(member);
-            const double drag = drag_area(whole, i, whole.kind[i], 1, plate_kappa);
+            const Kind kind = kind_in_air(whole, i);
+            const double drag = drag_area(whole, i, kind, 1, plate_kappa), facing = facing_in_air(whole, i);
             const Mat3 R = r.rotation[i].toRotationMatrix();
             for (std::size_t k = 0; k < directions.size(); ++k)
-                force[k] += drag / unfolded(whole.kind[i], 1.0) * air_force(whole.kind[i], R, directions[k]).force;
+                force[k] += drag / unfolded(kind, 1.0) * air_force(kind, R, directions[k], facing, up).force;
         }
         Fits fits;
         for (std::size_t k = 0; k < directions.size(); ++k) {

@@ -137,7 +137,7 @@ for k in (0, 1, 39, 40, 41, 50, 59):
         sign = 1 if sum(a * b for a, b in zip(q[i], rotation(loop[k], i))) > 0 else -1
         assert max(abs(a - sign * b) for a, b in zip(q[i], rotation(loop[k], i))) < 1e-8, (k, i)
         assert math.dist(at[i], loop[k]["position"][3 * i:3 * i + 3]) < 1e-8, (k, i)
-assert most > 0.05, most
+assert most > 0.05, most # [rad]: there is something to blend
 END
 
 # Refused, with the reason.

@@ -65,6 +65,20 @@ TEST_CASE("bodies carry what they show from above") {
     CHECK(laid.mass == Approx(tree.load[1] + tree.load[2] + tree.load[3]));
 }
 
+TEST_CASE("a clump carries what its leaves show from above, however it stands") {
+    const double area = 0.3 * 0.2 / 2;
+    for (const double facing : {0.0, 0.4, 1.0})
+        for (const double turned : {0.0, 0.8, pi / 2}) {
+            Tree tree = rod(0);
+            make_tree::add_leaf(tree, 0, {0, 0, 1}, make_tree::turn(turned, Vec3::UnitX()), 0.3, 0.2, 3e-3, 0, 0, 1);
+            tree.leaf_count = {1, 14};
+            tree.leaf_facing = {0, facing};
+            lay_load(tree, {2, 3, 5, 7});
+            // A share of them faces up, the others all ways: half of their area shows.
+            CHECK(tree.load[1] == Approx(3 * area * (facing + (1 - facing) * 0.5)).epsilon(1e-12));
+        }
+}
+
 TEST_CASE("a rod on one joint sinks under snow to the balance of its moments, from the pose it was drawn in") {
     const double snow = 40;
     for (const double lean : {pi / 2, 1.0}) {
