@@ -26,13 +26,14 @@
 // 0.96 and 0.76 at 4, 8 and 16 m/s, a palm's leaflets 1.00. Many of these are a tuft, a clump with h = 1.
 // The stiffness by drag (streaming_stiffness) is that of leaves that do not turn, for clumps too. With a clump's own G the error of the default step was
 // 0.90 to 1.16 times as large (oak, maple; 300 and 3 000 bodies; gusty, storm): it is not made.
-// The mean drag [N] in a steady wind is then
-//                                     5 m/s    10 m/s   20 m/s   E from 5 to 20 m/s
-//   a leaf of 9 cm, all directions    0.0142   0.0311   0.0612   -0.94
-//   a clump of 14, 30 cm              0.159    0.356    0.825    -0.81
-//   maple of 20 000 bodies            3000     7980     22900    -0.53     its foliage alone -0.82
-//   maple of 1 000, birch of 1 000    3140 830 7660 2080 20100 5650 -0.66 -0.62, foliage -0.82
-// At 20 000 bodies more of the drag is that of bare wood, which does not fold: clumps hold their twigs, which fold with them (growth/resolve.h).
+// The mean drag [N] in a steady wind is then, and E from 5 to 20 m/s
+//                                     5 m/s    10 m/s   20 m/s   E        of the foliage alone
+//   a leaf of 9 cm, all directions    0.0149   0.0315   0.0605   -0.99
+//   a clump of 14, 30 cm              0.159    0.356    0.823    -0.81
+//   maple, whole (98 000 bodies)      3080     8240     24800    -0.49    -0.87
+//   the same on 1 000                 3150     7670     20100    -0.66    -0.81
+//   birch on 1 000                    829      2070     5640     -0.62    -0.82
+// More of the whole tree's drag is that of bare wood, which does not fold: clumps hold their twigs, which fold with them (growth/resolve.h).
 // tests/lib/laws/foliage.cpp holds leaf, clump and a crown's foliage within -0.5 and -1.
 // Turning. A blade that turns by itself, its centre of mass at rest, meets the air at its edges. This gives a torque
 //   -k G |u| (kappa rho A / m) I w,   I the inertia about the centre of mass
