@@ -20,7 +20,7 @@ Tree one_body(Kind kind) {
     if (kind == Kind::branch)
         make_tree::add_piece(tree, -1, Vec3::Zero(), make_tree::upright(), 2, 0.05, 0.03, 0, 0, 0);
     if (kind == Kind::leaf) make_tree::add_leaf(tree, -1, Vec3::Zero(), make_tree::upright(), 0.1, 0.06, 3e-4, 0, 0, 0);
-    // Fourteen leaves of 9 cm, most of which face as the clump does; those of a tuft are narrow.
+    // Fourteen leaves of 9 cm, most of which face up; those of a tuft are narrow.
     if (kind == Kind::clump || kind == Kind::tuft) {
         make_tree::add_leaf(tree, -1, Vec3::Zero(), make_tree::upright(), 0.3, kind == Kind::tuft ? 0.03 : 0.2, 3e-3, 0,
                             0, 0);

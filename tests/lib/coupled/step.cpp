@@ -24,7 +24,6 @@ struct Named {
     std::string name;
     Scene scene;
     dense::GroundMotion ground{};
-    bool all_loads = false;
 };
 
 std::vector<Named> scenes() {
@@ -79,24 +78,23 @@ std::vector<Named> scenes() {
          {follower(12, Vec3(3, 1, -2), Vec3(2, 1, -4)), follower(12, Vec3(0, 0, -40), Vec3(0, 0, 60)),
           follower(17, Vec3(0.1, 0.2, 0.1), Vec3(0.3, 0, 0))})
         jets_all.pulls.push_back(pull);
-    const dense::GroundMotion still{};
     return {{"a pull that turns", jet},
-            {"pulls that turn and all", jets_all, still, true},
-            {"pulls that turn and all, driven and turning", jets_all, both, true},
+            {"pulls that turn and all", jets_all},
+            {"pulls that turn and all, driven and turning", jets_all, both},
             {"an attachment", hand},
             {"two bodies attached to each other", pair},
-            {"pairs and all", pairs_all, still, true},
-            {"pairs and all, driven and turning", pairs_all, both, true},
-            {"attachments and all", held_all, still, true},
-            {"attachments and all, driven and turning", held_all, both, true},
+            {"pairs and all", pairs_all},
+            {"pairs and all, driven and turning", pairs_all, both},
+            {"attachments and all", held_all},
+            {"attachments and all, driven and turning", held_all, both},
             {"nothing", bare},
             {"gravity", heavy},
             {"wind", blown},
             {"pulls", pulled},
-            {"all", all, still, true},
+            {"all", all},
             {"driven ground", bare, driven},
             {"turning ground", bare, turning},
-            {"all, driven and turning", all, both, true}};
+            {"all, driven and turning", all, both}};
 }
 
 // In random motion at 0.7 s, with random last changes.
@@ -215,8 +213,6 @@ TEST_CASE(
         for (const Named& named : scenes())
             for (const Scheme scheme : extrapolating) {
                 if (!leaves && scheme != Scheme::p12) continue; // in leaf there is all that is here
-                // P.25 and P.5 are P12 with other numbers: under all loads at once.
-                if ((scheme == Scheme::p25 || scheme == Scheme::p50) && !named.all_loads) continue;
                 Bench bench(tree, named, scheme);
                 const dense::Vector truth = dense::take(step_of(tree, named, bench), scheme);
                 solve(bench);
