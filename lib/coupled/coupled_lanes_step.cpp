@@ -245,7 +245,7 @@ void pack(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, 
     Lanes<T>& lanes = work.lanes;
     lanes.odd = false;
     const int columns = coupled_columns(waits(layout), scheme_of(own.scheme).poles);
-    lanes.table.assign(std::size_t(layout.rows) * std::size_t(columns), Row<T>{}); // pads do not move
+    set_zero_rows(lanes.table, std::size_t(layout.rows) * std::size_t(columns)); // pads do not move
     std::vector<std::size_t>& motion_at = lanes.motion_at;
     motion_of_rows(own, work, motion_at);
     lanes.watched.assign(layout.base.size(), 0);
@@ -255,13 +255,15 @@ void pack(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& state, 
     resize_records(layout, lanes.inward, inward::count);
     std::fill(lanes.inward.begin(), lanes.inward.end(), Row<T>{}); // of sleepers', which are awake now
     resize_records(layout, lanes.accelerated, accelerated::count);
-    for (std::size_t i = 0; i < plan.bodies; ++i) {
-        const Slot<T> row = motion_of(lanes.table, motion_at, layout.slot[i]);
+    parallel_for(layout.body.size(), 20, [&](std::size_t slot) {
+        if (layout.body[slot] < 0) return;
+        const auto i = std::size_t(layout.body[slot]);
+        const Slot<T> row = motion_of(lanes.table, motion_at, std::uint32_t(slot));
         row.put(motion::theta, theta[i]);
         row.put(motion::theta_dot, entry(state.theta_dot, i));
         row.put(motion::theta_change, entry(work.theta_change, i));
         row.put(motion::theta_dot_change, entry(work.theta_dot_change, i));
-    }
+    });
     pack_pulls(plan, own.lanes, work.lanes);
     lanes.presented = true;
 }

@@ -35,13 +35,13 @@ template <class T> EnergyRows<T> make_room(const Plan<T>& plan, const CoupledLan
     const Layout& layout = own.lanes.layout;
     if (lanes.energy_records.empty()) {
         const std::size_t size = record(energy::count, Row<T>::lanes);
-        lanes.energy_records.assign(layout.joints * size / Row<T>::lanes, Row<T>{});
+        set_zero_rows(lanes.energy_records, layout.joints * size / Row<T>::lanes);
         lanes.energy_sums.resize(layout.base.size() / Row<T>::lanes * energy::sums);
         lanes.energy_fast.resize(layout.rows);
         T* rest = lanes.energy_records.front().lane; // the resting ground: no turn, no motion
         for (const int R : {int(energy::start), int(energy::end), int(energy::R)})
             for (int k = 0; k < 3; ++k) rest[R + 4 * k] = 1;
-        if (plan.root_motion) lanes.energy_ground.assign(layout.base.size() / Row<T>::lanes * 6, Row<T>{});
+        if (plan.root_motion) set_zero_rows(lanes.energy_ground, layout.base.size() / Row<T>::lanes * 6);
     }
     return {lanes.energy_records.front().lane, lanes.energy_sums.front().lane, lanes.energy_fast.front().lane,
             lanes.energy_ground.empty() ? nullptr : lanes.energy_ground.front().lane};

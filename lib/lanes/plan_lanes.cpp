@@ -21,7 +21,7 @@ template <class T> void fill_pulls(const Plan<T>& plan, PlannedLanes<T>& lanes) 
 template <class T, class Number>
 void fill_of_bodies(const Layout& layout, const std::vector<Number>& of_body, RowVector<T>& rows) {
     if (of_body.empty()) return;
-    rows.assign(layout.rows, Row<T>{});
+    set_zero_rows(rows, layout.rows);
     for (std::size_t i = 0; i < of_body.size(); ++i) {
         const std::size_t slot = layout.slot[i];
         rows[slot / Row<T>::lanes].lane[slot % Row<T>::lanes] = T(of_body[i]);

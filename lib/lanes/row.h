@@ -1,6 +1,8 @@
 // row.h: 64 bytes of one quantity, a cache line and a register of the widest machines (layout.h), and arrays of them.
 #pragma once
 #include <cstddef>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace bough::fast {
@@ -10,8 +12,9 @@ template <class T> struct alignas(64) Row {
     T lane[lanes];
 };
 
-// Gives aligned memory, in huge pages where it is large and the system gives them. A sweep goes through megabytes, and looking up small pages took a
-// third of the time that reading them did. Throws std::bad_alloc.
+// Gives aligned memory of zeros, in huge pages where it is large and the system gives them. A sweep goes through megabytes, and looking up small pages
+// took a third of the time that reading them did. The system gives a large array's pages, already zero, as each is first touched, to the thread that
+// does: nobody fills them here. Throws std::bad_alloc.
 void* allocate_rows(std::size_t bytes);
 void free_rows(void*) noexcept;
 
@@ -21,9 +24,21 @@ template <class X> struct RowAllocator {
     template <class Y> RowAllocator(const RowAllocator<Y>&) {}
     X* allocate(std::size_t n) { return static_cast<X*>(allocate_rows(n * sizeof(X))); }
     void deallocate(X* p, std::size_t) noexcept { free_rows(p); }
+    void construct(X*) noexcept {} // what is allocated is zero
+    template <class... From> void construct(X* p, From&&... from) {
+        ::new (static_cast<void*>(p)) X(std::forward<From>(from)...);
+    }
     friend bool operator==(const RowAllocator&, const RowAllocator&) { return true; }
 };
 
+// It grows only into memory that is new to it, or what stood there would be taken for zeros.
 template <class T> using RowVector = std::vector<Row<T>, RowAllocator<Row<T>>>;
+
+// Makes `rows` so many rows of zeros.
+template <class T> void set_zero_rows(RowVector<T>& rows, std::size_t count) {
+    if (rows.size() == count) return void(rows.assign(count, Row<T>{}));
+    rows = RowVector<T>(); // before there are two
+    rows = RowVector<T>(count);
+}
 
 } // namespace bough::fast

@@ -15,6 +15,7 @@
 // Cost O(rows): a row is put together in the cache, hashed, and compared with the one that it may equal. There are never more rows in memory than are
 // different.
 #pragma once
+#include "../base/parallel.h"
 #include "../model/scene.h"
 #include "lane_memory.h"
 #include "lanes.h"
@@ -43,9 +44,11 @@ private:
     std::unordered_multimap<std::uint64_t, std::uint32_t> known_; // by hash
 };
 
-// Fills in lanes.constants as lanes.sharing asks. pad(slot) fills in a lane without a body, body(i, slot) that of body i; all is zero before.
+// Fills in lanes.constants as lanes.sharing asks. pad(slot) fills in a lane without a body, body(i, slot) that of body i; all is zero before. Rows that
+// are not shared are filled in by several threads.
 template <class T, class Pad, class Body>
 void fill_constants(PlannedLanes<T>& lanes, int quantities, const Pad& pad, const Body& body) {
+    constexpr std::size_t L = Row<T>::lanes;
     const std::vector<std::int32_t>& bodies = lanes.layout.body;
     const auto put = [&](std::size_t slot, const Slot<T>& at) {
         if (bodies[slot] < 0)
@@ -54,11 +57,13 @@ void fill_constants(PlannedLanes<T>& lanes, int quantities, const Pad& pad, cons
             body(std::size_t(bodies[slot]), at);
     };
     if (!lanes.sharing.on) {
-        lanes.constants.assign(lanes.layout.rows * std::size_t(quantities), Row<T>{});
-        for (std::size_t slot = 0; slot < bodies.size(); ++slot) put(slot, Slot<T>(lanes.constants, quantities, slot));
+        set_zero_rows(lanes.constants, lanes.layout.rows * std::size_t(quantities));
+        parallel_for(lanes.layout.rows, 1000, [&](std::size_t row) {
+            for (std::size_t slot = row * L; slot < (row + 1) * L; ++slot)
+                put(slot, Slot<T>(lanes.constants, quantities, slot));
+        });
         return;
     }
-    constexpr std::size_t L = Row<T>::lanes;
     SharedRows<T> shared(lanes, quantities);
     RowVector<T> row;
     for (std::size_t slot = 0; slot < bodies.size(); slot += L) {

@@ -1,4 +1,5 @@
 #include "pose.h"
+#include "../base/parallel.h"
 #include "../base/shortest_text.h"
 #include "sag.h"
 #include <Eigen/LU>
@@ -67,7 +68,7 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
     // Moments, until each is carried.
     StartPose pose{{}, gravity_moments(tree, turned_moments(tree, unloaded_mass(tree), R), gravity)};
     pose.joint_rotation.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    parallel_for(n, 300, [&](std::size_t i) {
         const Vec3 tau_b = R[i].transpose() * pose.theta[i];
         pose.theta[i] = carry(tree, i, tau_b);
         if (!(pose.theta[i].norm() <= 3.14159265358979323846)) // the step would take it the other way round (spring.h)
@@ -76,7 +77,7 @@ StartPose drawn(const Tree& tree, const Vec3& gravity) {
                                 what_would_carry(tree, i, tau_b)};
         pose.joint_rotation[i] =
             (tree.joint_rotation[i] * quaternion_from_vector<double>(pose.theta[i]).conjugate()).normalized();
-    }
+    });
     return pose;
 }
 
