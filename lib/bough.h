@@ -8,6 +8,9 @@
 //   RunError    simulation/run_error.h   how wrong it is
 //   close_loop  simulation/loop.h        one period of a motion that repeats
 // bough/files.h adds species by name and documents by file name. It belongs to a library beside this one (bough::files).
+//
+// Comments point at other headers, as (pose.h) does. Those that do not stand here are in bough's sources, each with its law's derivation. No program
+// needs them. Numbers such as (10) and § are those of the paper "Real-time Interactive Tree Animation".
 #pragma once
 #include "growth/grow.h"
 #include "growth/segment.h"

@@ -78,7 +78,7 @@ private:
     }
     void add_class(std::string_view line);
     void add_features(std::string_view line);
-    void place(std::string_view code, std::size_t indent);
+    void go_on_from(std::string_view code, std::size_t indent);
     void open(char edge);
     void close();
     void entities(std::string_view code, std::string_view row);
@@ -135,7 +135,7 @@ void Parser::close() {
 }
 
 // Moves to where a line of this indentation goes on from.
-void Parser::place(std::string_view code, std::size_t indent) {
+void Parser::go_on_from(std::string_view code, std::size_t indent) {
     const char first = code.front() == '^' && code.size() > 1 ? code[1] : code.front();
     if (indent > indent_.back()) {
         indent_.push_back(indent);
@@ -220,7 +220,7 @@ File Parser::parse() {
             ++file_.dates;
             continue;
         }
-        place(code, indent);
+        go_on_from(code, indent);
         entities(code, line);
     }
     if (!has_header)

@@ -1,5 +1,6 @@
 // coupled_in.h: the coupled step's sweep inward over lanes (coupled_sweeps.h): the elimination of resolvent.h joint by joint, and what is handed on
-// to the carrying body.
+// to the carrying body. It is written a second time because a row hands on to the next in registers, symmetric matrices are kept as their halves, and
+// what is solved goes past the caches where it is read only after the whole sweep. tests/lib/coupled/lanes.cpp holds the two together.
 //
 // Reads   loaded, mass, beta, records inward of forks, attached
 // Writes  of solved Eu, EA, EB; adds to the records inward where chains land

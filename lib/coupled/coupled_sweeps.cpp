@@ -15,7 +15,7 @@ template <class T, bool field = false> struct Sweep {
     const CoupledOut<T, field> out{rows};
     const CoupledIn<T> in{rows};
 
-    static std::size_t place(const Block& block, const Group& g) {
+    static std::size_t first_loaded(const Block& block, const Group& g) {
         return std::size_t(g.first_row - block.first_row) * loaded::count * L;
     }
 
@@ -25,7 +25,7 @@ template <class T, bool field = false> struct Sweep {
         for (std::uint32_t k = block.first_group; k < block.end_group; ++k) {
             const Group& g = rows.groups[k];
             // A terminal group is done with before the next one begins: all of them take the same place.
-            T* loaded_rows = scratch + place(block, rows.groups[std::min(k, block.terminal_group)]);
+            T* loaded_rows = scratch + first_loaded(block, rows.groups[std::min(k, block.terminal_group)]);
             if constexpr (!wind)
                 out.template group_out<wind, gravity, Kind::branch>(g, loaded_rows, flags);
             else if (g.kind == Kind::branch)
@@ -42,7 +42,7 @@ template <class T, bool field = false> struct Sweep {
 
     template <bool wind, bool gravity> void block_in(const Block& block, const T* scratch) const {
         for (std::uint32_t k = block.terminal_group; k-- > block.first_group;)
-            in.template group_in<wind, gravity>(rows.groups[k], scratch + place(block, rows.groups[k]));
+            in.template group_in<wind, gravity>(rows.groups[k], scratch + first_loaded(block, rows.groups[k]));
     }
 };
 

@@ -38,14 +38,14 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
 
     static Frame read_frame(Records<T, energy::count>& r) {
         const Rows<T> q = r.rows();
-        const auto place = [&](int k) {
+        const auto moving_at = [&](int k) {
             return Moving{q.matrix(k), q.vector(k + 9), q.vector(k + 12), q.vector(k + 15)};
         };
         FrameOverGround<W, field> over;
         if constexpr (field) over = {q.real(energy::x), q.real(energy::z)};
         return {over,
-                place(energy::start),
-                place(energy::end),
+                moving_at(energy::start),
+                moving_at(energy::end),
                 q.vector(energy::fast_omega),
                 q.vector(energy::fast_v),
                 q.matrix(energy::R),
@@ -56,14 +56,14 @@ template <class T, bool field = false> struct EnergySweep : CoupledParts<T> {
     }
     static void write_frame(Records<T, energy::count>& r, const Frame& f) {
         const Rows<T> q = r.rows();
-        const auto place = [&](int k, const Moving& p) {
+        const auto put = [&](int k, const Moving& p) {
             q.set(k, p.R);
             q.set(k + 9, p.x);
             q.set(k + 12, p.omega);
             q.set(k + 15, p.v);
         };
-        place(energy::start, f.start);
-        place(energy::end, f.end);
+        put(energy::start, f.start);
+        put(energy::end, f.end);
         q.set(energy::fast_omega, f.fast_omega);
         q.set(energy::fast_v, f.fast_v);
         q.set(energy::R, f.R);

@@ -1,20 +1,20 @@
-// segment.h: splines to rigid bodies (§3, §10): branches cut into frustums by arc length and curvature, leaves and
-// fruit jointed to the piece they grow on, each with mass, inertia, stiffness and damping.
+// segment.h: makes rigid bodies of splines (§3, §10). Branches are cut into frustums by arc length and curvature. Leaves and fruit are jointed to the
+// piece that they grow on. Each body gets its mass, inertia, stiffness and damping.
 //
-// Cuts. A branch is cut into pieces of at most `segment_length` (default: by the rule of cut.h) and at most
-// `max_bend` of turning each, pieces even in arc length between forced cuts; joints lie on the curve. Points nearer
-// than `merge` to the one before are merged. The side branch's joint stays where it was drawn, off the parent's axis.
-// Stiffness. Compliance of a joint = half the parent piece's + half the child piece's, integrated over taper (at the
-// ground and where a side branch leaves: the child's half only): bend 1/(E I), twist 1/(G J), K = (kx, ky, kz).
-// Damping. beta = 2 zeta / omega with omega the branch's own first bending frequency (branch_mode.h).
+// Cuts. A piece of a branch is at most `segment_length` long (by default after the rule of cut.h) and turns by at most `max_bend`. Between forced cuts
+// all pieces are equally long. Joints lie on the curve. Points nearer than `merge` to the one before are merged. A side branch's joint stays where it
+// was drawn, off the parent's axis.
+// Stiffness. A joint's compliance is half the parent piece's and half the child piece's, integrated over the taper. At the ground, and where a side
+// branch leaves, it is the child's half alone. Bending has 1 / (E I), twist 1 / (G J). K = (kx, ky, kz).
+// Damping. beta = 2 zeta / omega, with omega the branch's own first bending frequency (branch_mode.h).
 // Budget. With max_bodies, or where the splines say a number (Splines::bodies; not with a segment_length), a tree of more bodies than that is
-// resolved by fewer (resolve.h): the same tree, what is left out being part of what carries it. A tree of fewer is cut more finely, evenly,
-// for Splines::bodies; leaves and fruit stay one body each. max_bodies never makes more.
-// Order. Bodies stand branch by branch, a branch's pieces in order, parents before children; leaves and fruit follow
-// all branches. Cost O(points + bodies), of the whole tree; some eighty times with a budget. A branch without length is left
-// out and counted (curves.h). The exact rules of cutting: cut.h.
-// Throws std::invalid_argument where max_bodies is less than the least number possible (says which), or where there
-// are more bodies than an index holds.
+// resolved by fewer (resolve.h): it stays the same tree, and what is left out becomes part of what carries it. A tree of fewer is cut more finely,
+// evenly, for Splines::bodies. Leaves and fruit stay one body each. max_bodies never makes more.
+// Order. Bodies stand branch by branch, a branch's pieces in order, parents before children. Leaves and fruit follow all branches.
+// A branch without length is left out and counted (curves.h). cut.h has the exact rules of cutting.
+// Cost O(points + bodies) of the whole tree; with a budget some eighty times that.
+// Throws std::invalid_argument where max_bodies is less than the least number possible (and says which that is), or where there are more bodies than
+// an index holds.
 #pragma once
 #include "../model/splines.h"
 #include "../model/tree.h"
@@ -38,12 +38,11 @@ struct SegmentReport {
     double segment_length = 0;         // [m] longest piece, as used
 };
 
-// How many bodies segment() would make. O(points), with a budget as segment().
+// Returns how many bodies segment() would make. O(points), with a budget as segment().
 std::int64_t count_bodies(const Splines&, const SegmentOptions&);
 
-// Has segment() make so many bodies of the splines, within a tenth from 100 on (Splines::bodies). Throws std::invalid_argument
-// ("bodies: is ...") for less than 1,
-// more than 2e7, and fewer than the tree can come to. O(branches), for a few bodies as segment().
+// Has segment() make so many bodies of the splines, within a tenth from 100 on (Splines::bodies). Throws std::invalid_argument ("bodies: is ...") for
+// less than 1, for more than 2e7, and for fewer than the tree can come to. O(branches), for a few bodies as segment().
 void ask_for_bodies(Splines&, std::int64_t bodies);
 
 Tree segment(const Splines&, const Material&, const SegmentOptions&, SegmentReport* report = nullptr);

@@ -215,7 +215,7 @@ private:
     }
 
     // The bodies of a chain into lane `lane` of a group.
-    void place(const Chain& chain, const Group& group, std::size_t lane) {
+    void put_chain(const Chain& chain, const Group& group, std::size_t lane) {
         std::uint32_t row = group.first_row;
         for (std::int32_t i = chain.first; i >= 0; i = next[std::size_t(i)], ++row) {
             const std::size_t slot = row * std::size_t(out.lanes) + lane;
@@ -281,7 +281,7 @@ private:
             const Group group{out.rows, length, std::uint32_t(out.base.size()), kind_here};
             out.base.resize(out.base.size() + lanes, 0);
             out.body.resize((out.rows + length) * lanes, -1);
-            for (std::size_t lane = 0; lane < together.size(); ++lane) place(chains[together[lane]], group, lane);
+            for (std::size_t lane = 0; lane < together.size(); ++lane) put_chain(chains[together[lane]], group, lane);
             out.groups.push_back(group);
             out.rows += length;
             for (const std::uint32_t placed : together)

@@ -32,17 +32,17 @@ template <class T> struct WalkersWork {
         Vec3 before; // [m]
     };
     std::vector<Push> pushes;
-    static Vec3 place(const State<T>& state, const WalkerLoad& load) {
+    static Vec3 pushed_point(const State<T>& state, const WalkerLoad& load) {
         return (state.x_w[load.body] + state.R_wb[load.body] * load.point_b.template cast<T>()).template cast<double>();
     }
     WalkersWork(const Plan<T>& plan, const State<T>& state, const World<T>& world) {
         for (const Walk& walk : world.walkers)
             if (const auto load = walker_load(walk, time_of(plan, state), plan.dt))
-                pushes.push_back({*load, place(state, *load)});
+                pushes.push_back({*load, pushed_point(state, *load)});
     }
     double done(const State<T>& after) const { // [J]
         double work = 0;
-        for (const Push& p : pushes) work += p.load.force.dot(place(after, p.load) - p.before);
+        for (const Push& p : pushes) work += p.load.force.dot(pushed_point(after, p.load) - p.before);
         return work;
     }
 };
