@@ -22,6 +22,12 @@ Vec3 wind_at(const bough::Wind& wind, double time) {
     return wind.velocity * (1 + (wind.gust_factor - 1) * g);
 }
 
+// [m/s] The speed that foliage's drag and damping go with. Leaves roll up, at 7.5 m/s. Those of a clump turn with the wind besides, at 7.2 m/s.
+double folded_speed(bool clump, double speed) {
+    const double turned = clump ? 0.66 + 0.34 / (1 + std::pow(speed / 7.2, 4)) : 1;
+    return turned * speed / (1 + speed / 7.5);
+}
+
 Vec3 air_force(const Tree& tree, std::size_t i, double density, const Mat3& R, const Vec3& u) {
     const Vec3& size = tree.size[i];
     switch (tree.kind[i]) {
@@ -32,15 +38,14 @@ Vec3 air_force(const Tree& tree, std::size_t i, double density, const Mat3& R, c
     case bough::Kind::fruit:
         return 0.235 * density * std::numbers::pi * size[1] * size[1] * u.norm() * u;
     default: {
-        const bool clump = !tree.leaf_count.empty() && tree.leaf_count[i] > 1;
+        const bool clump = is_clump(tree, i);
         const Vec3 normal = clump ? Vec3(Vec3::UnitY()) : Vec3(R.col(1)); // a clump's leaves keep theirs as it leans
-        // At 7.5 m/s; a quarter of the drag from all sides. A clump's leaves turn with the wind besides, at 7.2 m/s.
-        const double turned = clump ? 0.66 + 0.34 / (1 + std::pow(u.norm() / 7.2, 4)) : 1;
-        const double folded = turned * u.norm() / (1 + u.norm() / 7.5);
         // Of a clump's leaves so many face along its normal, the others all ways: half of a leaf's drag broadside, whichever way.
         const double face = !clump ? 1 : tree.leaf_facing.empty() ? 0 : tree.leaf_facing[i];
+        // A quarter of a plate's drag is from all sides.
         const Vec3 plate = 0.75 * u.dot(normal) * normal + 0.25 * u;
-        return 0.6 * density * (size[0] * size[1] / 2) * folded * (face * plate + (1 - face) * 0.5 * u);
+        return 0.6 * density * (size[0] * size[1] / 2) * folded_speed(clump, u.norm()) *
+               (face * plate + (1 - face) * 0.5 * u);
     }
     }
 }
@@ -90,8 +95,8 @@ void compute_loads(const Tree& tree, const bough::Scene& scene, const std::vecto
         loads.force[i] = air_force(tree, i, density, bodies.R_wb[i], u);
         if (tree.kind[i] != bough::Kind::leaf) continue;
         const double area = 0.6 * density * tree.size[i][0] * tree.size[i][1] / 2;
-        const double rate = (!tree.leaf_count.empty() && tree.leaf_count[i] > 1 ? 1 : 6) * area / tree.mass[i] *
-                            u.norm() / (1 + u.norm() / 7.5);
+        const bool clump = is_clump(tree, i);
+        const double rate = (clump ? 1 : 6) * area / tree.mass[i] * folded_speed(clump, u.norm());
         const Mat3 I = bodies.R_wb[i] * tree.inertia[i] * bodies.R_wb[i].transpose();
         loads.moment[i] -= rate * I * bodies.omega[i];
     }
