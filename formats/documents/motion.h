@@ -56,7 +56,6 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-bool is_motion(std::string_view content);
 Motion read_motion(std::string_view content, const std::string& name);
 
 bool is_state(std::string_view content);

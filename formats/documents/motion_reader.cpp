@@ -313,10 +313,6 @@ bool MotionFrames::next(MotionFrame& frame) {
     return implementation_->next(frame);
 }
 
-bool is_motion(std::string_view content) {
-    return document_format(content) == motion_type.format;
-}
-
 Motion read_motion(std::string_view content, const std::string& name) {
     MotionFrames frames(content, name);
     Motion motion;

@@ -219,13 +219,6 @@ SceneDocument changed(const SceneDocument& document, const std::vector<SceneOver
     return read_overridden(json(value_of(document.scene, document.material)), "the scene", changes);
 }
 
-Scene read_scene(std::string_view content, const std::string& name) {
-    SceneDocument document = read_scene_document(content, name);
-    if (document.material.any())
-        throw InputError(name + ": /material", "changes the wood of trees, which are not read here");
-    return std::move(document.scene);
-}
-
 std::string wind_text(const Wind& wind) {
     return text_of(value_of(wind));
 }

@@ -34,8 +34,6 @@ SceneDocument read_scene_document(std::string_view content, const std::string& n
                                   const std::vector<SceneOverride>& = {});
 // The same with a document that was read before.
 SceneDocument changed(const SceneDocument&, const std::vector<SceneOverride>&);
-// A scene for which the caller brings the trees: one that changes their material is refused.
-Scene read_scene(std::string_view content, const std::string& name);
 Wind read_wind(std::string_view content,
                const std::string& name); // {"format": "bough-wind", "version": 1, fields of the scene's "wind"}
 std::string wind_text(const Wind&);      // as the value of a scene's "wind", JSON

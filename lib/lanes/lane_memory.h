@@ -24,13 +24,6 @@ template <class T> void put(T (&to)[3], const Vec3& v) {
     for (int k = 0; k < 3; ++k) to[k] = T(v[k]);
 }
 
-// Returns a vector of a body's lane in rows of `count` quantities.
-template <class T> Vector3<T> vector_at(const RowVector<T>& rows, int count, std::size_t slot, int quantity) {
-    const Row<T>* row = &rows[slot / Row<T>::lanes * std::size_t(count) + std::size_t(quantity)];
-    const std::size_t lane = slot % Row<T>::lanes;
-    return {row[0].lane[lane], row[1].lane[lane], row[2].lane[lane]};
-}
-
 // One body's lane in rows of `count` quantities.
 template <class T> class Slot {
 public:

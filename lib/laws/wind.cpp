@@ -109,12 +109,6 @@ double wind_factor(const Wind& wind, const Vec3& place) {
     return wind_profile(wind, place.y());
 }
 
-Vec3 wind_at(const Wind& wind, const Vec3& place, double t) {
-    const double factor = wind_factor(wind, place);
-    if (!varies_over_ground(wind)) return factor * wind_velocity(wind, t);
-    return factor * field_velocity(wind, wind_weather(wind, t), place.x(), place.z(), t);
-}
-
 template <class T>
 WindTable<T> make_wind_table(const Wind& wind, double top, double reach, const std::vector<double>& clocks) {
     const std::size_t entries = wind.profile == 0 ? 1 : 65;

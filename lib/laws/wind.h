@@ -29,10 +29,6 @@ double wind_profile(const Wind&, double y);
 // same up in a table, WideWind (lanes/wide_wind.h) in lanes.
 double wind_factor(const Wind&, const Vec3& place);
 
-// Returns the wind's velocity [m/s] at a place [m] and time [s], evaluated directly. This is the definition, for few bodies and for tests; steps look
-// it up in the table below. It is undisturbed, without shelter. O(1); 72 cosines with turbulence.
-Vec3 wind_at(const Wind&, const Vec3& place, double t);
-
 // The wind as bodies see it: velocities at even heights from 0 to top, linear between them, constant above. Where the wind varies over the ground, it
 // is the profile's factor at those heights times the field's velocity there.
 template <class T> struct WindTable {

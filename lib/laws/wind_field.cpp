@@ -105,20 +105,6 @@ Vec3 mean_wind(const Wind& wind, const Vec3& place) {
     return wind_factor(wind, place) * wind.velocity;
 }
 
-Vec3 field_velocity(const Wind& wind, const WindWeather& weather, double x, double z, double t) {
-    Vec3 v = wind.velocity * weather.gust + weather.turbulence;
-    if (wind.grid) {
-        const std::size_t cell = cell_at(*wind.grid, x, z);
-        v = cell_velocity(wind, weather, cell, t, OctavePhases(wind.seed));
-    }
-    if (!wind.swirl) return v;
-    const WindSwirl& swirl = *wind.swirl;
-    const double r = std::hypot(x - swirl.x, z - swirl.z);
-    const double a = largest_turn(swirl, r) *
-                     std::sin(two_pi * turns(t, whole_period(wind, swirl.period)) - outward_angle(swirl, r));
-    return swirled(v, std::cos(a), std::sin(a));
-}
-
 std::vector<double> wind_clocks(const Scene& scene) {
     std::vector<double> clocks{0};
     for (const Placement& tree : scene.trees)

@@ -78,9 +78,6 @@ template <class A> const A& of_cell(const std::vector<A>& list, std::size_t cell
 // [m/s] Returns the mean velocity at a place [m] of the wind as a whole, without the effect of cells and turns.
 Vec3 mean_wind(const Wind&, const Vec3& place);
 
-// Returns the velocity at (x, z) [m] where the profile is 1, evaluated directly.
-Vec3 field_velocity(const Wind&, const WindWeather&, double x, double z, double t);
-
 template <class T> struct WindField {
     FieldShape<T> shape;
     // [m/s] of each clock's cells where the profile is 1: all x, all y, all z; empty: no field at all

@@ -90,7 +90,6 @@ protected:
 // Throws SceneError.
 std::unique_ptr<AnyRun> make_run(std::shared_ptr<Assembly>, const RunChoice&);
 AnyRun& run_of(Simulation&);
-const AnyRun& run_of(const Simulation&);
 
 // Calls f with the Run<T> that the run is.
 template <class F> auto visit_run(AnyRun& run, F&& f) {

@@ -81,10 +81,6 @@ AnyRun& run_of(Simulation& simulation) {
     return *simulation.run_;
 }
 
-const AnyRun& run_of(const Simulation& simulation) {
-    return *simulation.run_;
-}
-
 StepReport Simulation::step(int times) {
     if (times < 0) throw SceneError("step: is " + std::to_string(times) + " steps, expected 0 or more");
     return run_->step(times);

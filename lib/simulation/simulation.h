@@ -155,7 +155,6 @@ private:
     explicit Simulation(std::unique_ptr<AnyRun>);
     friend Simulation make_simulation(std::shared_ptr<Assembly>, const RunChoice&);
     friend AnyRun& run_of(Simulation&);
-    friend const AnyRun& run_of(const Simulation&);
 
     std::unique_ptr<AnyRun> run_;
 };

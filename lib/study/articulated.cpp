@@ -246,15 +246,4 @@ void articulated_pass(const Plan<double>& plan, ArticulatedPass& pass, double ti
     outward([&](std::size_t i, const ArticulatedBody& p) { accelerate(body[i], p, plan.joint_position[i]); });
 }
 
-void joint_accelerations(const Plan<double>& plan, const std::vector<Vec3>& theta, const std::vector<Vec3>& rate,
-                         double time, ArticulatedPass& work, std::vector<Vec3>& acceleration) {
-    for (std::size_t i = 0; i < plan.bodies; ++i) {
-        work.body[i].theta = theta[i];
-        work.body[i].rate = rate[i];
-    }
-    articulated_pass(plan, work, time, 0);
-    acceleration.resize(plan.bodies);
-    for (std::size_t i = 0; i < plan.bodies; ++i) acceleration[i] = work.body[i].rate_dot;
-}
-
 } // namespace bough

@@ -42,8 +42,4 @@ namespace bough {
 // there: wind and pulls are those at its end, the moving ground's acceleration (root_motion.h) is its mean.
 void articulated_pass(const Plan<double>&, ArticulatedPass& pass, double time, double h);
 
-// d rate / dt [rad/s^2, body axes] of every joint at theta, rate, time.
-void joint_accelerations(const Plan<double>&, const std::vector<Vec3>& theta, const std::vector<Vec3>& rate,
-                         double time, ArticulatedPass& work, std::vector<Vec3>& acceleration);
-
 } // namespace bough

@@ -1,4 +1,4 @@
-// joint_accelerations (lib/study/articulated.h) against MuJoCo, Simbody and the dense solve of 113 bits, on the trees and
+// articulated_pass (lib/study/articulated.h) against MuJoCo, Simbody and the dense solve of 113 bits, on the trees and
 // motions of cases.h, by the two measures defined
 // there; two solvers may differ by twice what each may differ from the truth.
 #include "cases.h"
@@ -14,9 +14,14 @@ std::vector<Vec3> library_accelerations(const Case& c) {
     const auto plan = bough::make_plan<double>(c.tree, {{0, c.tree.size_bodies(), 0}}, c.scene, {}, 1e-3,
                                                bough::Solver::articulated_explicit);
     auto state = bough::make_state(plan);
-    std::vector<Vec3> theta, found;
-    for (const Quat& turn : c.motion.turn) theta.push_back(rotation_vector(turn));
-    bough::joint_accelerations(plan, theta, c.motion.rate, c.time, articulated_state(state).pass[0], found);
+    bough::ArticulatedPass& pass = articulated_state(state).pass[0];
+    for (std::size_t i = 0; i < plan.bodies; ++i) {
+        pass.body[i].theta = rotation_vector(c.motion.turn[i]);
+        pass.body[i].rate = c.motion.rate[i];
+    }
+    bough::articulated_pass(plan, pass, c.time, 0);
+    std::vector<Vec3> found;
+    for (const bough::ArticulatedBody& body : pass.body) found.push_back(body.rate_dot);
     return found;
 }
 

@@ -365,7 +365,7 @@ TEST_CASE("cut or with any byte changed, a document is read as it stands or refu
     const auto try_all = [&](const std::string& text) {
         const std::string errors[] = {
             error_of([&] { read_tree(text, "f"); }), error_of([&] { read_splines(text, "f"); }),
-            error_of([&] { read_scene(text, "f"); }), error_of([&] { read_motion(text, "f"); }),
+            error_of([&] { read_scene_document(text, "f"); }), error_of([&] { read_motion(text, "f"); }),
             error_of([&] { read_state(text, "f"); })};
         for (const std::string& error : errors) {
             error.empty() ? ++read : ++refused;

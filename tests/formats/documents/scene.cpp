@@ -29,7 +29,7 @@ TEST_CASE("what a scene simulates comes back from both forms") {
     simulate.view = Simulate::View{random.vector(), 35.5, 2160};
     scene.simulate = simulate;
     for (const Form form : {Form::json, Form::safetensors}) {
-        const Scene read = read_scene(scene_text(scene, form), "s");
+        const Scene read = read_scene_document(scene_text(scene, form), "s").scene;
         REQUIRE(read.simulate);
         const Simulate& s = *read.simulate;
         CHECK((s.first_level == 1 && s.last_level == 3));
@@ -43,10 +43,11 @@ TEST_CASE("what a scene simulates comes back from both forms") {
         CHECK(same(s.error, simulate.error));
         CHECK((same(s.view->from, simulate.view->from) && s.view->angle == 35.5 && s.view->pixels == 2160));
     }
-    const Scene few = read_scene(R"({"format": "bough-scene", "version": 1, "simulate": {"last_level": 1}})", "s");
+    const Scene few =
+        read_scene_document(R"({"format": "bough-scene", "version": 1, "simulate": {"last_level": 1}})", "s").scene;
     REQUIRE(few.simulate);
     CHECK((!few.simulate->first_level && few.simulate->last_level == 1 && !few.simulate->box && !few.simulate->view));
-    CHECK_FALSE(read_scene(R"({"format": "bough-scene", "version": 1})", "s").simulate);
+    CHECK_FALSE(read_scene_document(R"({"format": "bough-scene", "version": 1})", "s").scene.simulate);
 }
 
 TEST_CASE("scenes come back from both forms") {
@@ -154,7 +155,7 @@ TEST_CASE("scenes come back from both forms") {
         const std::string text = scene_text(scene, form);
         INFO(text);
         CHECK(is_scene(text));
-        const Scene read = read_scene(text, "s");
+        const Scene read = read_scene_document(text, "s").scene;
         REQUIRE(read.trees.size() == 2);
         CHECK(read.trees[1].file == "birch.safetensors");
         CHECK(same(read.trees[1].position, scene.trees[1].position));
@@ -258,7 +259,7 @@ TEST_CASE("scenes come back from both forms") {
 }
 
 TEST_CASE("a scene of two lines has the defaults") {
-    const Scene defaults, read = read_scene(R"({"format": "bough-scene", "version": 1})", "s");
+    const Scene defaults, read = read_scene_document(R"({"format": "bough-scene", "version": 1})", "s").scene;
     CHECK(read.trees.empty());
     CHECK_FALSE(read.wind);
     CHECK(read.pulls.empty());
@@ -272,7 +273,7 @@ TEST_CASE("a scene of two lines has the defaults") {
     CHECK(read.gravity == defaults.gravity);
     CHECK(read.pose == Pose::drawn);
 
-    const Scene gusty = read_scene(R"({"format": "bough-scene", "version": 1, "wind": "gusty"})", "s");
+    const Scene gusty = read_scene_document(R"({"format": "bough-scene", "version": 1, "wind": "gusty"})", "s").scene;
     REQUIRE(gusty.wind);
     CHECK(gusty.wind->velocity.norm() == Approx(8));
     const Wind wind = read_wind(R"({"format": "bough-wind", "version": 1, "velocity": [3, 0, 4]})", "w");
@@ -282,7 +283,8 @@ TEST_CASE("a scene of two lines has the defaults") {
 
 TEST_CASE("a joint limit may be one number, or one for a kind") {
     const auto read = [](const std::string& limit) {
-        return read_scene(R"({"format": "bough-scene", "version": 1, "joint_limit": )" + limit + "}", "s").joint_limit;
+        return read_scene_document(R"({"format": "bough-scene", "version": 1, "joint_limit": )" + limit + "}", "s")
+            .scene.joint_limit;
     };
     const Vec3 none = Vec3::Constant(180), all = Vec3::Constant(30.5);
     REQUIRE(read("30.5"));

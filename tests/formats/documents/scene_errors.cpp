@@ -10,7 +10,7 @@ using Catch::StartsWith;
 namespace {
 
 std::string scene_error(const std::string& fields) {
-    return error_of([&] { read_scene(R"({"format": "bough-scene", "version": 1, )" + fields + "}", "s"); });
+    return error_of([&] { read_scene_document(R"({"format": "bough-scene", "version": 1, )" + fields + "}", "s"); });
 }
 
 } // namespace

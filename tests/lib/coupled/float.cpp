@@ -6,8 +6,8 @@
 // bodies, inward the moments that they ask for, as in inverse_dynamics.h; what is left over at a joint is the residual. It is
 // relative to the terms that cancel there, root mean squares over the joints. And the two answers are compared: by the
 // moments M (a_float - a_double), a the mean acceleration of the step, by inverse_dynamics.h.
-#include "lib/study/inverse_dynamics.h"
 #include "tests/support/coupled_support.h"
+#include "tests/support/inverse_dynamics.h"
 #include "tests/support/solver_parts.h"
 
 using namespace bough;

@@ -1,8 +1,8 @@
 // Rest of the coupled step: poses that gravity holds stay, and where it comes to rest all moments balance, by
 // inverse_dynamics.h (no elimination, no linearisation, no step).
 #include "lib/plan/pose.h"
-#include "lib/study/inverse_dynamics.h"
 #include "tests/support/coupled_support.h"
+#include "tests/support/inverse_dynamics.h"
 
 using namespace bough;
 using namespace coupled;

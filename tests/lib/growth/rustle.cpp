@@ -3,6 +3,7 @@
 #include "lib/laws/wind.h"
 #include "lib/laws/wind_speeds.h"
 #include "tests/support/skin_checks.h"
+#include "tests/support/wind_at.h"
 
 using namespace bough;
 using namespace skin_checks;

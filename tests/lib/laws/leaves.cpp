@@ -1,10 +1,10 @@
 // Leaves and petals that hang, with /leaves and without: their three springs by three frequencies, forces and torque in the wind, the steps' limits,
 // lanes, and the grid of extremes. (Those that fly: tests/lib/free/leaf_flight.cpp.)
 #include "lib/study/articulated.h"
-#include "lib/study/inverse_dynamics.h"
 #include "lib/study/ring_down.h"
 #include "lib/study/stability.h"
 #include "tests/support/coupled_support.h"
+#include "tests/support/inverse_dynamics.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/solver_parts.h"
@@ -156,11 +156,14 @@ TEST_CASE("What the articulated reference accelerates a leaf by is (23) and (24)
         -b[0].R * T.transpose() * leaf.stiffness[0].cwiseProduct(Vec3(at.theta[0] + leaf.damping[0] * at.theta_dot[0]));
     const Vec3 moment = spring + c.cross(load.force) + load.torque - b[0].omega.cross(J * b[0].omega);
     const Vec3 truth = b[0].R.transpose() * J.ldlt().solve(moment); // rates in the body's axes change by this
-    std::vector<Vec3> acceleration;
-    joint_accelerations(alone, at.theta, {Vec3(b[0].R.transpose() * b[0].omega)}, 0, articulated_state(at).pass[0],
-                        acceleration);
-    CHECK((acceleration[0] - truth).norm() <= 1e-9 * truth.norm());
-    const Residual left = inverse_dynamics(alone, at.theta, {Vec3(b[0].R.transpose() * b[0].omega)}, acceleration, 0);
+    const Vec3 rate = b[0].R.transpose() * b[0].omega;
+    ArticulatedPass& pass = articulated_state(at).pass[0];
+    pass.body[0].theta = at.theta[0];
+    pass.body[0].rate = rate;
+    articulated_pass(alone, pass, 0, 0);
+    const Vec3 acceleration = pass.body[0].rate_dot;
+    CHECK((acceleration - truth).norm() <= 1e-9 * truth.norm());
+    const Residual left = inverse_dynamics(alone, at.theta, {rate}, {acceleration}, 0);
     CHECK(left.worst <= 1e-9 * left.moment_rms);
 }
 

@@ -1,6 +1,7 @@
 // The wind over the ground: values of cells by Fourier sums over time, the swirl by the paper's own formula, the tables that steps look up
 // against the direct evaluation, what repeats against itself a period on.
 #include "lib/laws/wind.h"
+#include "tests/support/wind_at.h"
 #include <catch2/catch.hpp>
 #include <complex>
 #include <numbers>

@@ -3,8 +3,8 @@
 #include "formats/documents/tree.h"
 #include "lib/growth/segment.h"
 #include "lib/plan/pose.h"
-#include "lib/study/inverse_dynamics.h"
 #include "lib/study/solvers.h"
+#include "tests/support/inverse_dynamics.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulate.h"
 #include <catch2/catch.hpp>

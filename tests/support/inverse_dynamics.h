@@ -1,10 +1,18 @@
-#include "inverse_dynamics.h"
-#include "../laws/air_load.h"
-#include "../plan/body_air.h"
-#include "../plan/pushes.h"
+// inverse_dynamics.h: how well accelerations solve the equations of motion: the check that an articulated-body pass needs,
+// because it can lose its digits on trees with extreme ratios of mass and stiffness and still look sane.
+//
+// The recursive Newton-Euler algorithm: outward the accelerations of all bodies from those of the joints, inward the wrenches
+// they need; what the joint's spring does not provide of the moment is the residual, N_j - tau_j [N m].
+// It has no elimination in it: an independent O(n) answer, backward stable.
+#pragma once
+#include "lib/laws/air_load.h"
+#include "lib/plan/body_air.h"
+#include "lib/plan/plan.h"
+#include "lib/plan/pushes.h"
+#include "lib/plan/state.h"
 
 namespace bough {
-namespace {
+namespace inverse {
 
 struct Moving {
     Mat3 R;                        // world from body
@@ -13,8 +21,8 @@ struct Moving {
     double moment = 0;             // size of the terms in N
 };
 
-Moving move(const Plan<double>& plan, const Moving& p, std::size_t i, const Vec3& theta, const Vec3& rate,
-            const Vec3& acceleration) {
+inline Moving move(const Plan<double>& plan, const Moving& p, std::size_t i, const Vec3& theta, const Vec3& rate,
+                   const Vec3& acceleration) {
     Moving b;
     b.R = p.R * plan.R_pj[i] * rotation_from_vector(theta);
     b.r = p.R * plan.joint_position[i];
@@ -27,7 +35,7 @@ Moving move(const Plan<double>& plan, const Moving& p, std::size_t i, const Vec3
     return b;
 }
 
-Moving ground_under(const Plan<double>& plan, std::size_t i, double time) {
+inline Moving ground_under(const Plan<double>& plan, std::size_t i, double time) {
     const std::int64_t spline = plan.root_motion ? spline_under(plan.moved, i) : -1;
     const Ground g = spline < 0 ? Ground() : ground_at(plan.splines[std::size_t(spline)], time);
     Moving b;
@@ -40,10 +48,18 @@ Moving ground_under(const Plan<double>& plan, std::size_t i, double time) {
     return b;
 }
 
-} // namespace
+} // namespace inverse
 
-Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& theta, const std::vector<Vec3>& rate,
-                          const std::vector<Vec3>& acceleration, double time) {
+struct Residual {
+    double rms = 0, worst = 0; // [N m] over the joints
+    double moment_rms = 0; // [N m] of the terms that cancel: own inertia, weight, air, spring, what hangs further out
+    double relative() const { return moment_rms > 0 ? rms / moment_rms : 0; }
+};
+
+// Of `acceleration` (d rate / dt, body axes) at theta, rate (body axes), time. O(n).
+inline Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& theta,
+                                 const std::vector<Vec3>& rate, const std::vector<Vec3>& acceleration, double time) {
+    using inverse::Moving;
     const std::size_t n = plan.bodies;
     const auto parent = [&](std::size_t i) { return std::size_t(plan.parent[i]); };
     WindTable<double> wind;
@@ -53,8 +69,9 @@ Residual inverse_dynamics(const Plan<double>& plan, const std::vector<Vec3>& the
     }
     std::vector<Moving> body(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const Moving ground = plan.parent[i] < 0 ? ground_under(plan, i, time) : Moving();
-        body[i] = move(plan, plan.parent[i] < 0 ? ground : body[parent(i)], i, theta[i], rate[i], acceleration[i]);
+        const Moving ground = plan.parent[i] < 0 ? inverse::ground_under(plan, i, time) : Moving();
+        body[i] =
+            inverse::move(plan, plan.parent[i] < 0 ? ground : body[parent(i)], i, theta[i], rate[i], acceleration[i]);
         Moving& b = body[i];
         const Mat3 J = b.R * plan.inertia_joint[i] * b.R.transpose();
         const Vec3 c = b.R * plan.com[i];
