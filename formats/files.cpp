@@ -102,6 +102,10 @@ void write_tree(const std::string& file, const Tree& tree) {
     write_file(file, [&](Output& to, Form form) { write_tree(to, tree, form); });
 }
 
+void write_scene(const std::string& file, const Scene& scene) {
+    write_file(file, [&](Output& to, Form form) { write_scene(to, scene, form); });
+}
+
 SavedState read_state(const std::string& file) {
     return read_state(read_input(file), input_name(file));
 }

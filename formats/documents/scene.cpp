@@ -240,6 +240,10 @@ Wind read_wind(std::string_view content, const std::string& name) {
 void write_scene(Output& output, const Scene& scene, Form form, const MaterialChange& material) {
     for (const std::optional<Defect>& defect : {check(scene), check(material)})
         if (defect) throw OutputError(output.name(), "/" + defect->field + " " + defect->message);
+    for (std::size_t k = 0; k < scene.trees.size(); ++k) // one in memory would be read no more
+        if (scene.trees[k].file.empty())
+            throw OutputError(output.name(), "/trees/" + std::to_string(k) +
+                                                 "/file is empty, expected the name of a file that holds the tree");
     const ordered_json fields = value_of(scene, material);
     if (form == Form::safetensors) {
         std::vector<std::pair<std::string, std::string>> metadata;

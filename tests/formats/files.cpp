@@ -58,6 +58,25 @@ TEST_CASE("a motion file takes frames of its own run's bodies and fields alone")
     CHECK(read_motion(read_input(file), file).frame.size() == 1);
 }
 
+TEST_CASE("a scene that a program made moves as before, once written and read again") {
+    const Folder folder;
+    Scene made = one(make_tree::branched(), "gusty");
+    made.add(made.trees[0].tree, Vec3(3, 0, 1), 90);
+    for (const char* name : {"park.json", "park.safetensors"}) {
+        for (Placement& place : made.trees) place.file.clear();
+        CHECK_THROWS_WITH(write_scene(folder / name, made), Catch::Contains("/trees/0/file is empty, expected"));
+        CHECK_THROWS_AS(read_scene(folder / name), InputError); // nothing there
+        write_tree(folder / "tree.json", *made.trees[0].tree);
+        for (Placement& place : made.trees) place.file = "tree.json";
+        write_scene(folder / name, made);
+        const Scene read = read_scene(folder / name);
+        REQUIRE(read.trees.size() == 2);
+        CHECK(read.trees[0].tree == read.trees[1].tree); // each file once
+        Simulation before(made), after(read);
+        CHECK(run(before, 5) == run(after, 5));
+    }
+}
+
 TEST_CASE("splines that a program made and that hold no tree are refused before they are cut") {
     const Splines good = grow("apple", {.bodies = 60});
     CHECK(convert(good).size_bodies() > 0);
