@@ -3,7 +3,6 @@
 #include "../lanes/lane_motion.h"
 #include "../lanes/plan_lanes.h"
 #include "../laws/wind.h"
-#include "../plan/state_update.h"
 #include "analytic_lanes_step.h"
 #include "analytic_rows.h"
 #include "analytic_stepper.h"
@@ -23,7 +22,7 @@ template <class T> const AnalyticLanesState<T>& analytic_work(const State<T>& st
 
 template <class T>
 AnalyticLanesStepper<T>::AnalyticLanesStepper(Target target, double sleep)
-    : Cloned<AnalyticLanesStepper<T>, Stepper<T>>(
+    : Cloned<AnalyticLanesStepper<T>, LanesStepper<T>, Stepper<T>>(
           StepperKind{.name = "analytic", .plainly = {}, .stage = Stage::spring}) {
     own.lanes.target = target;
     if (sleep > 0) own.lanes.sleep.reason = "solver analytic";
@@ -51,32 +50,23 @@ template <class T> void AnalyticLanesStepper<T>::allocate(const Plan<T>& plan, S
     state.own = Copied<StepperState>(std::move(work));
 }
 
+template <class T> Lanes<T>& AnalyticLanesStepper<T>::lanes_of(State<T>& state) const {
+    return analytic_work(state).lanes;
+}
+
 template <class T>
-void AnalyticLanesStepper<T>::begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) const {
-    AnalyticLanesState<T>& work = analytic_work(state);
-    update_kinematics(plan, state);
-    pack_analytic(plan, own, state, work, theta);
-    if (plan.pose) return;
-    give_back(state.theta, state.theta_dot, work.scaled_rate); // present() makes them again
-    work.lanes.presented = false;
+void AnalyticLanesStepper<T>::pack_rows(const Plan<T>& plan, State<T>& state,
+                                        const std::vector<Vector3<T>>& theta) const {
+    pack_analytic(plan, own, state, analytic_work(state), theta);
+}
+
+template <class T> void AnalyticLanesStepper<T>::unpack_rows(const Plan<T>& plan, State<T>& state) const {
+    unpack_analytic(plan, own, state, analytic_work(state));
 }
 
 template <class T>
 void AnalyticLanesStepper<T>::advance(const Plan<T>& plan, State<T>& state, StageClock* clock) const {
     analytic_lanes_step(plan, own, state, analytic_work(state), clock);
-}
-
-template <class T> void AnalyticLanesStepper<T>::present(const Plan<T>& plan, State<T>& state) const {
-    AnalyticLanesState<T>& work = analytic_work(state);
-    if (work.lanes.presented) return;
-    unpack_analytic(plan, own, state, work);
-    work.lanes.presented = true;
-    if (plan.pose) update_kinematics(plan, state);
-}
-
-template <class T>
-std::optional<NonFinite> AnalyticLanesStepper<T>::non_finite(const Plan<T>& plan, State<T>& state) const {
-    return analytic_work(state).lanes.finite ? std::nullopt : Stepper<T>::non_finite(plan, state);
 }
 
 template <class T> std::vector<CarriedArray<T>> AnalyticLanesStepper<T>::carried(State<T>& state) const {

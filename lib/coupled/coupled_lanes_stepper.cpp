@@ -2,7 +2,6 @@
 #include "../lanes/clear_lanes.h"
 #include "../lanes/lane_motion.h"
 #include "../lanes/plan_lanes.h"
-#include "../plan/state_update.h"
 #include "attachment.h"
 #include "attachment_course.h"
 #include "attachment_lanes.h"
@@ -26,7 +25,7 @@ template <class T> const CoupledLanesState<T>& coupled_work(const State<T>& stat
 
 template <class T>
 CoupledLanesStepper<T>::CoupledLanesStepper(Scheme scheme, Target target, double sleep)
-    : Cloned<CoupledLanesStepper<T>, Stepper<T>>(coupled_kind(scheme, {})), sleep_(sleep) {
+    : Cloned<CoupledLanesStepper<T>, LanesStepper<T>, Stepper<T>>(coupled_kind(scheme, {})), sleep_(sleep) {
     own.scheme = scheme;
     own.lanes.target = target;
 }
@@ -54,31 +53,22 @@ template <class T> void CoupledLanesStepper<T>::allocate(const Plan<T>& plan, St
     state.own = Copied<StepperState>(std::move(work));
 }
 
+template <class T> Lanes<T>& CoupledLanesStepper<T>::lanes_of(State<T>& state) const {
+    return coupled_work(state).lanes;
+}
+
 template <class T>
-void CoupledLanesStepper<T>::begin(const Plan<T>& plan, State<T>& state, const std::vector<Vector3<T>>& theta) const {
-    CoupledLanesState<T>& work = coupled_work(state);
-    update_kinematics(plan, state);
-    pack(plan, own, state, work, theta);
-    if (plan.pose) return;
-    give_back(state.theta, state.theta_dot, work.theta_change, work.theta_dot_change); // present() makes them again
-    work.lanes.presented = false;
+void CoupledLanesStepper<T>::pack_rows(const Plan<T>& plan, State<T>& state,
+                                       const std::vector<Vector3<T>>& theta) const {
+    pack(plan, own, state, coupled_work(state), theta);
+}
+
+template <class T> void CoupledLanesStepper<T>::unpack_rows(const Plan<T>& plan, State<T>& state) const {
+    unpack(plan, own, state, coupled_work(state));
 }
 
 template <class T> void CoupledLanesStepper<T>::advance(const Plan<T>& plan, State<T>& state, StageClock* clock) const {
     coupled_lanes_step(plan, own, state, coupled_work(state), clock);
-}
-
-template <class T> void CoupledLanesStepper<T>::present(const Plan<T>& plan, State<T>& state) const {
-    CoupledLanesState<T>& work = coupled_work(state);
-    if (work.lanes.presented) return;
-    unpack(plan, own, state, work);
-    work.lanes.presented = true;
-    if (plan.pose) update_kinematics(plan, state);
-}
-
-template <class T>
-std::optional<NonFinite> CoupledLanesStepper<T>::non_finite(const Plan<T>& plan, State<T>& state) const {
-    return coupled_work(state).lanes.finite ? std::nullopt : Stepper<T>::non_finite(plan, state);
 }
 
 template <class T> std::vector<CarriedArray<T>> CoupledLanesStepper<T>::carried(State<T>& state) const {
@@ -149,9 +139,7 @@ template <class T> const CoupledPlan<T>* coupled_plan(const Plan<T>& plan) {
 }
 
 template <class T> CoupledPlan<T>* coupled_plan(Plan<T>& plan) {
-    if (auto* lanes = dynamic_cast<CoupledLanesStepper<T>*>(&*plan.stepper)) return &lanes->own;
-    if (auto* plain = dynamic_cast<CoupledStepper<T>*>(&*plan.stepper)) return &plain->own;
-    return nullptr;
+    return const_cast<CoupledPlan<T>*>(coupled_plan(std::as_const(plan))); // the plan is the caller's to change
 }
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \

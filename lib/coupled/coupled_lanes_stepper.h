@@ -1,10 +1,12 @@
 // coupled_lanes_stepper.h: the coupled solver with its steps made in lanes, as a run's stepper.
 #pragma once
+#include "../lanes/lanes_stepper.h"
 #include "coupled_lanes_state.h"
 
 namespace bough::fast {
 
-template <class T> class CoupledLanesStepper final : public Cloned<CoupledLanesStepper<T>, Stepper<T>> {
+template <class T>
+class CoupledLanesStepper final : public Cloned<CoupledLanesStepper<T>, LanesStepper<T>, Stepper<T>> {
 public:
     // sleep: [rad/s] the rate below which what has settled is left out of steps (sleep.h); 0: never. The scheme must have complex poles, and the
     // scene no joint limits.
@@ -14,10 +16,7 @@ public:
     void lay_out(const Plan<T>&, const std::vector<TreeRange>&) override;
     void explain(const Plan<T>&, PlanAccount&) const override;
     void allocate(const Plan<T>&, State<T>&) const override;
-    void begin(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
     void advance(const Plan<T>&, State<T>&, StageClock*) const override;
-    void present(const Plan<T>&, State<T>&) const override;
-    std::optional<NonFinite> non_finite(const Plan<T>&, State<T>&) const override;
     std::vector<CarriedArray<T>> carried(State<T>&) const override;
     void save(const State<T>&, SavedState&) const override;
     void restore(State<T>&, const SavedState&) const override;
@@ -25,12 +24,15 @@ public:
     void view_motion(const State<T>&, MotionView<T>&) const override;
     void drop(Plan<T>&, State<T>&, const std::vector<std::size_t>& bodies,
               const std::vector<CarriedMoment>& carried) override;
-    const PlannedLanes<T>* lanes() const override { return &own.lanes; }
-    PlannedLanes<T>* lanes() override { return &own.lanes; }
+    const PlannedLanes<T>& lanes() const override { return own.lanes; }
 
     CoupledLanesPlan<T> own;
 
 private:
+    Lanes<T>& lanes_of(State<T>&) const override;
+    void pack_rows(const Plan<T>&, State<T>&, const std::vector<Vector3<T>>& theta) const override;
+    void unpack_rows(const Plan<T>&, State<T>&) const override;
+
     double sleep_;
 };
 

@@ -1,7 +1,9 @@
 #include "plan_lanes.h"
 #include "../laws/wind.h"
+#include "lanes_stepper.h"
 #include "shared_constants.h"
 #include <algorithm>
+#include <utility>
 
 namespace bough::fast {
 namespace {
@@ -50,8 +52,18 @@ void lay_out_lanes(const Plan<T>& plan, const std::vector<TreeRange>& ranges, Pl
     lanes.per_metre = table.per_metre;
 }
 
+template <class T> const PlannedLanes<T>* planned_lanes(const Plan<T>& plan) {
+    const auto* stepper = dynamic_cast<const LanesStepper<T>*>(&*plan.stepper);
+    return stepper ? &stepper->lanes() : nullptr;
+}
+template <class T> PlannedLanes<T>* planned_lanes(Plan<T>& plan) {
+    return const_cast<PlannedLanes<T>*>(planned_lanes(std::as_const(plan))); // the plan is the caller's to change
+}
+
 #define BOUGH_INSTANTIATE(T)                                                                                           \
-    template void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>&, PlannedLanes<T>&);
+    template void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>&, PlannedLanes<T>&);                      \
+    template const PlannedLanes<T>* planned_lanes(const Plan<T>&);                                                     \
+    template PlannedLanes<T>* planned_lanes(Plan<T>&);
 BOUGH_INSTANTIATE(float)
 BOUGH_INSTANTIATE(double)
 #undef BOUGH_INSTANTIATE

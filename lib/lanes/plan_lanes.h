@@ -10,11 +10,7 @@ namespace bough::fast {
 template <class T> void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>& ranges, PlannedLanes<T>&);
 
 // Returns the lanes of a plan; null where it is on the plain path.
-template <class T> const PlannedLanes<T>* planned_lanes(const Plan<T>& plan) {
-    return plan.stepper->lanes();
-}
-template <class T> PlannedLanes<T>* planned_lanes(Plan<T>& plan) {
-    return plan.stepper->lanes();
-}
+template <class T> const PlannedLanes<T>* planned_lanes(const Plan<T>&);
+template <class T> PlannedLanes<T>* planned_lanes(Plan<T>&);
 
 } // namespace bough::fast

@@ -19,9 +19,6 @@ namespace bough {
 
 template <class T> struct Plan;
 template <class T> struct State;
-namespace fast {
-template <class T> struct PlannedLanes;
-}
 struct PlanAccount;
 
 // A solver's part of a state.
@@ -96,9 +93,6 @@ public:
     const StepperKind& kind() const { return kind_; }
     bool in_lanes() const { return kind_.plainly.empty(); }
     bool carries_moments() const { return carries_moments_; } // drop() is told of them
-    // How bodies stand in lanes; null: plainly.
-    virtual const fast::PlannedLanes<T>* lanes() const { return nullptr; }
-    virtual fast::PlannedLanes<T>* lanes() { return nullptr; }
 
     // These are called while a plan is made, in this order.
     virtual void refuse(const Scene&) const {} // throws std::domain_error for what it cannot hold
