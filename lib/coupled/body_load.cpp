@@ -2,9 +2,9 @@
 #include "../base/parallel.h"
 #include "../base/resolved_turn.h"
 #include "../laws/air_load.h"
+#include "../model/own_inertia.h"
 #include "../plan/body_air.h"
 #include "../plan/pushes.h"
-#include "own_inertia.h"
 
 namespace bough {
 

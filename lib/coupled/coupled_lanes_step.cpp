@@ -2,6 +2,7 @@
 #include "../base/parallel.h"
 #include "../lanes/shared_constants.h"
 #include "../model/air_constants.h"
+#include "../model/own_inertia.h"
 #include "../plan/pushes.h"
 #include "attachment.h"
 #include "attachment_lanes.h"
@@ -10,7 +11,6 @@
 #include "energy_lanes.h"
 #include "half_turn.h"
 #include "midpoint.h"
-#include "own_inertia.h"
 #include "pulled_points.h"
 #include "sleep.h"
 #include <algorithm>

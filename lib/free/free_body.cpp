@@ -1,7 +1,7 @@
 #include "free_body.h"
-#include "../coupled/own_inertia.h"
 #include "../laws/air.h"
 #include "../model/body_shape.h"
+#include "../model/own_inertia.h"
 #include "../model/scene.h"
 #include "shape.h"
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
 #include "response.h"
-#include "../coupled/own_inertia.h"
+#include "../model/own_inertia.h"
 #include <Eigen/LU>
 
 namespace bough {

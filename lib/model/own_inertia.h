@@ -1,4 +1,4 @@
-// own_inertia.h: a body's inertia about its joint as the coupled step takes it.
+// own_inertia.h: a body's inertia about its joint, such that a step may divide by it.
 #pragma once
 #include "../base/math.h"
 #include <limits>
