@@ -1,6 +1,6 @@
 #include "analytic_stepper.h"
-#include "../coupled/attachment_course.h"
 #include "../laws/wind.h"
+#include "../plan/attachment_course.h"
 #include "../plan/state_update.h"
 #include "analytic_step.h"
 #include "fictitious.h"

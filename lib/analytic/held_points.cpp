@@ -1,7 +1,7 @@
 #include "held_points.h"
 #include "../base/cholesky.h"
 #include "../base/rotation_maps.h"
-#include "../coupled/attachment_course.h"
+#include "../plan/attachment_course.h"
 #include "spring_joint.h"
 #include <algorithm>
 
@@ -28,15 +28,11 @@ void place_points(const Plan<T>& plan, const std::vector<Vector3<T>>& theta, dou
         j.x = x + R * j.joint_position;
         j.R = R * j.R_pj * rotation_from_vector<double>(theta[j.body].template cast<double>());
     }
-    const auto place_end = [&](AttachedEnd& end) {
+    each_end(of.all, [&](AttachedEnd& end) {
         const HeldJoint<T>& j = of.joints[end.at];
         end.rho = j.R * end.point_b;
         end.start = j.x + end.rho;
-    };
-    for (Attached& held : of.all) {
-        place_end(held);
-        if (held.far) place_end(*held.far);
-    }
+    });
 }
 
 // From an end to the ground: visit(joint, from its joint to the end, from its joint to the next or the end).
@@ -175,32 +171,9 @@ template <class T> bool bounded(HeldPoints<T>& of) {
 
 template <class T> void find_joints(const Plan<T>& plan, HeldPoints<T>& of) {
     std::vector<std::size_t> touched;
-    const auto touch = [&](std::size_t body) {
-        for (auto i = std::int64_t(body); i >= 0; i = plan.parent[std::size_t(i)]) touched.push_back(std::size_t(i));
-    };
-    for (const Attached& held : of.all) {
-        touch(held.body);
-        if (held.far) touch(held.far->body);
-    }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    const auto at = [&](std::size_t body) {
-        return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
-    };
-    of.joints = std::vector<HeldJoint<T>>(touched.size());
-    for (std::size_t k = 0; k < touched.size(); ++k) {
-        HeldJoint<T>& j = of.joints[k];
-        j.body = touched[k];
-        const std::int32_t parent = plan.parent[j.body];
-        j.parent = parent < 0 ? -1 : at(std::size_t(parent));
-        j.depth = j.parent < 0 ? 1 : of.joints[std::size_t(j.parent)].depth + 1;
-        j.joint_position = plan.joint_position[j.body].template cast<double>();
-        j.R_pj = plan.R_pj[j.body].template cast<double>();
-    }
-    for (Attached& held : of.all) {
-        held.at = std::size_t(at(held.body));
-        if (held.far) held.far->at = std::size_t(at(held.far->body));
-    }
+    find_path_joints(
+        plan, [&](const auto& visit) { each_end(of.all, visit); }, touched, of.joints);
+    for (HeldJoint<T>& j : of.joints) j.depth = j.parent < 0 ? 1 : of.joints[std::size_t(j.parent)].depth + 1;
     of.forces.assign(of.all.size(), {});
     const auto size = 3 * Eigen::Index(of.all.size());
     of.answers.setZero(size, size);

@@ -1,18 +1,14 @@
 // held_state.h: attachments as the analytic solver keeps them in a state (held_points.h).
 #pragma once
-#include "../coupled/attachment_state.h"
+#include "../plan/attached.h"
 #include "spring_load.h"
 #include <Eigen/Cholesky>
 
 namespace bough {
 
 // A joint between a point that is held and the ground.
-template <class T> struct HeldJoint {
-    std::size_t body;
-    std::int64_t parent; // in HeldPoints::joints, -1: the ground
-    int depth;           // joints from the ground to it, itself too
-    Vec3 joint_position; // of the plan
-    Mat3 R_pj;
+template <class T> struct HeldJoint : PathJoint { // one of HeldPoints::joints
+    int depth;                                    // joints from the ground to it, itself too
 
     // Of the step.
     SpringJoint<T> load;
@@ -25,7 +21,7 @@ template <class T> struct HeldJoint {
     Vec3 moment;  // [N m], then [N m s]
 };
 
-// The part of an attachment that the coupled solver's Attached has no place for.
+// The part of an attachment that Attached, which both solvers share, has no place for.
 struct HeldForce {
     double kappa, g; // [N/m], [kg]
     double most;     // [N] F

@@ -1,6 +1,6 @@
 #include "attachment.h"
 #include "../base/rotation_maps.h"
-#include "attachment_course.h"
+#include "../plan/attachment_course.h"
 #include "attachment_paths.h"
 #include "midpoint.h"
 #include "pulled_points.h"

@@ -36,35 +36,11 @@ Mat3 direction_bound(const Vec3& P, const Vec3& f, double any) {
 }
 
 template <class T> void find_bodies(const Plan<T>& plan, Attachments& a) {
-    std::vector<std::size_t>& touched = a.touched;
-    touched.clear();
-    const auto touch = [&](std::size_t body) {
-        for (auto i = std::int64_t(body); i >= 0; i = plan.parent[std::size_t(i)]) touched.push_back(std::size_t(i));
+    const auto ends = [&](const auto& visit) {
+        each_end(a.all, visit);
+        for (PulledPoint& point : a.pulled) visit(point);
     };
-    for (const Attached& held : a.all) {
-        touch(held.body);
-        if (held.far) touch(held.far->body);
-    }
-    for (const PulledPoint& point : a.pulled) touch(point.body);
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    const auto index_of = [&](std::size_t body) {
-        return std::lower_bound(touched.begin(), touched.end(), body) - touched.begin();
-    };
-    a.bodies.assign(touched.size(), {});
-    for (std::size_t k = 0; k < touched.size(); ++k) {
-        AttachedBody& b = a.bodies[k];
-        b.body = touched[k];
-        const std::int32_t parent = plan.parent[b.body];
-        b.parent = parent < 0 ? -1 : index_of(std::size_t(parent));
-        b.joint_position = plan.joint_position[b.body].template cast<double>();
-        b.R_pj = plan.R_pj[b.body].template cast<double>();
-    }
-    for (Attached& held : a.all) {
-        held.at = std::size_t(index_of(held.body));
-        if (held.far) held.far->at = std::size_t(index_of(held.far->body));
-    }
-    for (PulledPoint& point : a.pulled) point.at = std::size_t(index_of(point.body));
+    find_path_joints(plan, ends, a.touched, a.bodies);
     find_ties(a);
 }
 

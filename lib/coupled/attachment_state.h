@@ -1,10 +1,8 @@
 // attachment_state.h: attachments as the coupled solver keeps them in a state (attachment.h).
 #pragma once
-#include "../base/math.h"
+#include "../plan/attached.h"
 #include <Eigen/LU>
 #include <complex>
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace bough {
@@ -28,11 +26,7 @@ struct JointNow {
 };
 
 // A body that is attached, or that carries one.
-struct AttachedBody {
-    std::size_t body;
-    std::int64_t parent; // in Attachments::bodies, -1: the ground
-    Vec3 joint_position; // of the plan
-    Mat3 R_pj;
+struct AttachedBody : PathJoint {                // one of Attachments::bodies
     std::uint32_t slot = 0, block = 0, base = 0; // in lanes: where it stands, the chain's place in Layout::base
 
     JointNow now;
@@ -46,36 +40,6 @@ struct AttachedBody {
     double give, share;
     Vec3 turned, moved; // [rad], [m] over the step, in the linear model
     Vec3 spun, sped;    // [rad/s], [m/s] likewise: rates
-};
-
-// An attachment's end on a body.
-struct AttachedEnd {
-    std::size_t body = 0;
-    std::size_t at = 0;          // in Attachments::bodies
-    Vec3 point_b = Vec3::Zero(); // [m] body frame
-    // Of the step: from the joint at y*; x_0; V_0
-    Vec3 rho = Vec3::Zero(), start = Vec3::Zero(), velocity = Vec3::Zero();
-};
-
-struct Attached : AttachedEnd {
-    std::uint64_t number = 0;       // 0: planned; else of those made while the run goes on
-    std::int64_t planned = -1;      // in Plan::attachments; -1: made so
-    std::optional<AttachedEnd> far; // of a pair; targets are then as seen from it
-    double stiffness = 0, damping = 0;
-    double from = 0, to = 0;    // [s]
-    Vec3 target = Vec3::Zero(); // [m] of one at rest, or led: at the next step's start
-    Vec3 goal = Vec3::Zero();   // [m] where it is led, in so many steps
-    int steps = 0;
-
-    Vec3 force = Vec3::Zero(),
-         spring = Vec3::Zero(); // [N] on the body at the last step's end, and the spring's own part, smoothed; carried
-
-    // Of the step.
-    bool on = false;
-    double k = 0, c = 0;                                         // as they are taken
-    Vec3 from_target = Vec3::Zero(), to_target = Vec3::Zero();   // [m] at its start and end, as seen from the ground
-    Vec3 target_velocity = Vec3::Zero(), quicker = Vec3::Zero(); // [m/s] mean, and what it gains
-    double work = 0, far_work = 0; // [J] done on the tree, by the mean of both ends' forces; on the far end's
 };
 
 using ComplexVec3 = Eigen::Vector3cd;

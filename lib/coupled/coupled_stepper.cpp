@@ -1,7 +1,7 @@
 #include "coupled_stepper.h"
+#include "../plan/attachment_course.h"
 #include "../plan/state_update.h"
 #include "attachment.h"
-#include "attachment_course.h"
 #include "coupled_step.h"
 #include <algorithm>
 

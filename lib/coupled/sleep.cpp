@@ -1,6 +1,6 @@
 #include "sleep.h"
+#include "../plan/attachment_course.h"
 #include "../plan/pushes.h"
-#include "attachment_course.h"
 #include "coupled_tables.h"
 #include <algorithm>
 #include <cmath>

@@ -88,7 +88,7 @@ struct SavedState {
     double articulated_step = 0;                      // articulated: [s] its inner step
     std::vector<double> free_bodies;                  // saved_world of free/world.h; empty where nothing is free
     std::vector<double> sleep;                        // saved_sleep of coupled/sleep.h; empty where nothing has settled
-    std::vector<double> attachments;                  // saved_attachments of coupled/attachment_course.h; empty without
+    std::vector<double> attachments;                  // saved_attachments of plan/attachment_course.h; empty without
     // If the run changed its step: how many steps it had taken by then, and the time [s]. Else empty.
     std::vector<double> step_change;
     std::string source;

@@ -1,6 +1,6 @@
 // any_run.h: what stands behind the door (simulation.h): a run in either precision, by any solver. Studies use it too.
 #pragma once
-#include "../coupled/attachment_state.h"
+#include "../plan/attached.h"
 #include "run.h"
 #include "run_choice.h"
 

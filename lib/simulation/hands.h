@@ -1,6 +1,6 @@
 // hands.h: what a program holds by hand in a run (Simulation::attach): attachments that no scene names. Private to simulation.
 #pragma once
-#include "../coupled/attachment_state.h"
+#include "../plan/attached.h"
 #include "run.h"
 
 namespace bough {

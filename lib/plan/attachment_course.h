@@ -1,8 +1,7 @@
 // attachment_course.h: what is the same about attachments (Attachment, scene.h) with any solver: which there are, when they hold, and the way their
 // targets go.
 #pragma once
-#include "../plan/plan.h"
-#include "attachment_state.h"
+#include "attached.h"
 
 namespace bough {
 

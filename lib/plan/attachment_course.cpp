@@ -29,7 +29,7 @@ template <class T> CurvePoint target_at(const Plan<T>& plan, const Attached& hel
 }
 
 // What the ground alone does with a point in the step: `of` -1 is taken off the target's way, 1 goes on it.
-template <class T> void carry(const Plan<T>& plan, const AttachedEnd& end, double time, double of, Attached& held) {
+template <class T> void go_along(const Plan<T>& plan, const AttachedEnd& end, double time, double of, Attached& held) {
     const Grounds grounds = grounds_of(plan, end.body, time);
     if (!grounds.moved) return;
     const Vec3 X = grounds.start.R.transpose() * (end.start - grounds.start.x);
@@ -70,8 +70,8 @@ template <class T> void lead(const Plan<T>& plan, Attached& held, double time) {
     held.to_target = end.x;
     held.quicker = end.v - start.v;
     if (held.steps > 0) held.to_target += (held.goal - held.target) / held.steps;
-    carry(plan, held, time, -1, held);
-    if (held.far) carry(plan, *held.far, time, 1, held);
+    go_along(plan, held, time, -1, held);
+    if (held.far) go_along(plan, *held.far, time, 1, held);
     held.target_velocity = (held.to_target - held.from_target) / plan.dt;
 }
 
