@@ -7,8 +7,8 @@
 // soon as the composite of the register's bodies is there, outermost first; and joints_done(), called at the end of each visit to a block.
 #pragma once
 #include "../lanes/sweep_parts.h"
-#include "../lanes/wide_turn.h"
 #include "analytic_rows.h"
+#include "wide_turn.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {

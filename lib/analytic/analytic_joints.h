@@ -3,9 +3,9 @@
 // because it takes what the joint's step left in registers, for all lanes at once; only those that turned so far heed it.
 #pragma once
 #include "../base/oscillator.h"
-#include "../lanes/wide_spring.h"
 #include "../laws/turn_guard.h"
 #include "analytic_chains.h"
+#include "wide_spring.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {

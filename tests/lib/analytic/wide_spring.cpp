@@ -1,7 +1,7 @@
 // The joint's kernel in registers of lanes, as wide as this file is compiled for: eigenvectors against Eigen's solver, the oscillator
 // against its closed forms in long double, elementary functions against the standard library's; each lane by itself, whatever its neighbours.
 #define BOUGH_TARGET tested
-#include "lib/lanes/wide_spring.h"
+#include "lib/analytic/wide_spring.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/oscillator_truth.h"
 #include <Eigen/Cholesky>

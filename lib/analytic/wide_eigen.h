@@ -5,7 +5,7 @@
 // of a rotation waits for the one before. Hence pairs (wide_pair.h), and the machine's square roots, which are there sooner than an iteration's
 // result.
 #pragma once
-#include "wide_pair.h"
+#include "../lanes/wide_pair.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {

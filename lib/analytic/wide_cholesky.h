@@ -2,7 +2,7 @@
 // It is written a second time beside base/cholesky.h. That one solves with L, which divides; lanes divide three times a matrix, for L^-1, and
 // multiply from there.
 #pragma once
-#include "wide_pair.h"
+#include "../lanes/wide_pair.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {

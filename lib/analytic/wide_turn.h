@@ -5,8 +5,8 @@
 // two axes. The analytic step has no sine to spare, and asks for J's derivative. With q = |theta|^2 all are power series: few terms up to one radian,
 // more up to 3.5, for the lanes that ask for them.
 #pragma once
-#include "wide_maps.h"
-#include "wide_pair.h"
+#include "../lanes/wide_maps.h"
+#include "../lanes/wide_pair.h"
 
 namespace bough::fast {
 inline namespace BOUGH_TARGET {

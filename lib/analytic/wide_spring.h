@@ -1,4 +1,4 @@
-// wide_spring.h: one joint's own step (analytic/spring.h, drag.h) for registers of lanes, apart from all traversal, in the axes of its body.
+// wide_spring.h: one joint's own step (spring.h, drag.h) for registers of lanes, apart from all traversal, in the axes of its body.
 //
 // It is written a second time because the plain step parts the work into stages over all joints. Here one joint goes through in registers, and the
 // order of sums is another. X is a register or a pair of them (wide_pair.h). What lanes do depends only on what stands in them, never on their
