@@ -84,8 +84,6 @@ template <class T> void take_analytic_constants(const Plan<T>& plan, const Tree&
 }
 
 #define BOUGH_INSTANTIATE(T) template void take_analytic_constants(const Plan<T>&, const Tree&, AnalyticPlan<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

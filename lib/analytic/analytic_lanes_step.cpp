@@ -140,8 +140,6 @@ template <class T> void put_analytic_pad(const Slot<T>& row) {
     template void unpack_analytic(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&);     \
     template void analytic_lanes_step(const Plan<T>&, const AnalyticLanesPlan<T>&, State<T>&, AnalyticLanesState<T>&,  \
                                       StageClock*);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

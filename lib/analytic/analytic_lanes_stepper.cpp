@@ -103,8 +103,6 @@ std::unique_ptr<Stepper<T>> analytic_stepper(const Scene& scene, std::optional<T
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template class AnalyticLanesStepper<T>;                                                                            \
     template std::unique_ptr<Stepper<T>> analytic_stepper(const Scene&, std::optional<Target>, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -42,8 +42,6 @@ void analytic_step(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& st
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void analytic_step(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&, StageClock*);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

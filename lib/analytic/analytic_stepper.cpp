@@ -141,8 +141,6 @@ void AnalyticStepper<T>::drop(Plan<T>& plan, State<T>& state, const std::vector<
     template struct AnalyticWork<T>;                                                                                   \
     template void drop_from_analytic(Plan<T>&, State<T>&, std::size_t);                                                \
     template class AnalyticStepper<T>;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -64,8 +64,6 @@ void composite_update(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>&
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void composite_update(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -26,8 +26,6 @@ void joint_drag(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& state
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void joint_drag(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&, std::size_t);        \
     template void joint_drag(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

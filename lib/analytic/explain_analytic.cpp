@@ -71,8 +71,6 @@ template <class T> void fast::AnalyticLanesStepper<T>::explain(const Plan<T>& pl
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void AnalyticStepper<T>::explain(const Plan<T>&, PlanAccount&) const;                                     \
     template void fast::AnalyticLanesStepper<T>::explain(const Plan<T>&, PlanAccount&) const;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -54,8 +54,6 @@ void external_forces(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& 
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void external_forces(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -58,8 +58,6 @@ template <class T> void fictitious_torques(const Plan<T>& plan, State<T>& s, Ana
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void accelerations(const Plan<T>&, State<T>&, AnalyticWork<T>&);                                          \
     template void fictitious_torques(const Plan<T>&, State<T>&, AnalyticWork<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

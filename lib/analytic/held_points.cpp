@@ -287,8 +287,6 @@ template <class T> void slow_held(const Plan<T>& plan, State<T>& s, AnalyticWork
     template void release_held(const Plan<T>&, AnalyticWork<T>&, const std::vector<std::size_t>&);                     \
     template void hold_points(const Plan<T>&, const AnalyticPlan<T>&, const State<T>&, AnalyticWork<T>&, double);      \
     template void slow_held(const Plan<T>&, State<T>&, AnalyticWork<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -17,8 +17,6 @@ template <class T> void root_loads(const Plan<T>& plan, AnalyticWork<T>& work, d
 }
 
 #define BOUGH_INSTANTIATE(T) template void root_loads(const Plan<T>&, AnalyticWork<T>&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

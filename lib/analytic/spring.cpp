@@ -57,8 +57,6 @@ void spring_update(const Plan<T>& plan, const AnalyticPlan<T>& own, State<T>& st
     template StepFlags spring_update(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&,              \
                                      std::size_t);                                                                     \
     template void spring_update(const Plan<T>&, const AnalyticPlan<T>&, State<T>&, AnalyticWork<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -118,8 +118,6 @@ T kept_of_rate(const Plan<T>& plan, const SpringJoint<T>& joint, std::size_t i, 
                                                      const AnalyticWork<T>&, const SpringJoint<T>&, std::size_t);      \
     template T kept_of_rate(const Plan<T>&, const SpringJoint<T>&, std::size_t, const Vector3<T>&, const Vector3<T>&,  \
                             const Vector3<T>&, const Vector3<T>&, const Vector3<T>&, StepFlags&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -289,8 +289,6 @@ void place_attachments(const Plan<T>& plan, const CoupledPlan<T>& own, CoupledSt
     template void release_from(const Plan<T>&, CoupledState<T>&, const std::vector<std::size_t>&);                     \
     template void read_attached(const State<T>&, CoupledState<T>&);                                                    \
     template void place_attachments(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -163,8 +163,6 @@ void book_attachments(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Coupl
                                std::complex<double>);                                                                  \
     template void put_attachments(const Plan<T>&, CoupledLanesState<T>&, std::complex<double>, CoupledRows<T>&);       \
     template void book_attachments(const Plan<T>&, const CoupledLanesPlan<T>&, CoupledLanesState<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

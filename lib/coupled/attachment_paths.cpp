@@ -90,8 +90,6 @@ template <class T> void add_direction(const Plan<T>& plan, Attachments& a, const
     template double answering_stiffness(const Plan<T>&, const AttachedBody&);                                          \
     template PathAnswer path_answer(const Plan<T>&, const Attachments&, const AttachedEnd&, std::complex<double>);     \
     template void add_direction(const Plan<T>&, Attachments&, const Attached&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

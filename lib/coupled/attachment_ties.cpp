@@ -151,8 +151,6 @@ template <class T> void solve_ties(const Plan<T>& plan, CoupledState<T>& work, s
 }
 
 #define BOUGH_INSTANTIATE(T) template void solve_ties(const Plan<T>&, CoupledState<T>&, std::complex<double>);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -109,8 +109,6 @@ void body_loads(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state,
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void wind_over_step(const Plan<T>&, State<T>&, CoupledState<T>&, double);                                 \
     template void body_loads(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -325,8 +325,6 @@ void coupled_lanes_step(const Plan<T>& plan, const CoupledLanesPlan<T>& own, Sta
     template void unpack(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&);                \
     template void coupled_lanes_step(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&,     \
                                      StageClock*);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

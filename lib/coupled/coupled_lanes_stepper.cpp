@@ -147,8 +147,6 @@ template <class T> CoupledPlan<T>* coupled_plan(Plan<T>& plan) {
     template std::unique_ptr<Stepper<T>> coupled_stepper(const Scene&, Scheme, std::optional<Target>, double);         \
     template const CoupledPlan<T>* coupled_plan(const Plan<T>&);                                                       \
     template CoupledPlan<T>* coupled_plan(Plan<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

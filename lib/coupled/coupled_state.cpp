@@ -40,8 +40,6 @@ void refuse_with_coupled(const Scene& scene) {
     template struct CoupledWork<T>;                                                                                    \
     template void take_coupled_constants(const Plan<T>&, const Tree&, CoupledPlan<T>&);                                \
     template void allocate_coupled(const Plan<T>&, State<T>&, CoupledState<T>&, std::size_t);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

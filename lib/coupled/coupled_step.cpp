@@ -73,8 +73,6 @@ void coupled_step(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& stat
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void coupled_step(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, StageClock*);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

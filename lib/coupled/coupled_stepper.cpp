@@ -96,8 +96,6 @@ template <class T> void CoupledStepper<T>::restore(State<T>& state, const SavedS
     template std::vector<CarriedArray<T>> carried_by_coupled(State<T>&);                                               \
     template void scale_changes(State<T>&, T);                                                                         \
     template void drop_from_coupled(Plan<T>&, State<T>&, std::size_t);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -82,8 +82,6 @@ bool streams(const Layout& layout, std::size_t cache) {
     template void scale_wood(PlannedLanes<T>&, T, T);                                                                  \
     template void scale_changes(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, T);                                 \
     template void motion_of_rows(const CoupledLanesPlan<T>&, const CoupledLanesState<T>&, std::vector<std::size_t>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -229,8 +229,6 @@ template <class T> void guard_energy(const Plan<T>& plan, State<T>& s, CoupledWo
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template bool weigh_start(const Plan<T>&, State<T>&, CoupledWork<T>&, double);                                     \
     template void guard_energy(const Plan<T>&, State<T>&, CoupledWork<T>&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

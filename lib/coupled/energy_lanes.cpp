@@ -163,8 +163,6 @@ void guard_lanes(const Plan<T>& plan, const CoupledLanesPlan<T>& own, State<T>& 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void guard_lanes(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&,            \
                               const CoupledRows<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

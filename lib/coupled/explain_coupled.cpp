@@ -70,8 +70,6 @@ template <class T> void fast::CoupledLanesStepper<T>::explain(const Plan<T>& pla
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void CoupledStepper<T>::explain(const Plan<T>&, PlanAccount&) const;                                      \
     template void fast::CoupledLanesStepper<T>::explain(const Plan<T>&, PlanAccount&) const;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

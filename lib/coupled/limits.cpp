@@ -85,8 +85,6 @@ template <class T> bool keep_limits(const Plan<T>& plan, State<T>& state, Couple
 }
 
 #define BOUGH_INSTANTIATE(T) template bool keep_limits(const Plan<T>&, State<T>&, CoupledWork<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -113,8 +113,6 @@ template <class T> void midpoint(const Plan<T>& plan, State<T>& state, CoupledWo
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void ground_over_step(const Plan<T>&, const CoupledPlan<T>&, CoupledState<T>&, double);                   \
     template void midpoint(const Plan<T>&, State<T>&, CoupledWork<T>&, bool);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

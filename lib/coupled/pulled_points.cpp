@@ -108,8 +108,6 @@ template <class T> void add_directions(const Plan<T>& plan, Attachments& a) {
     template bool take_loads(const Plan<T>&, const State<T>&, Attachments&);                                           \
     template void place_pull(const Plan<T>&, Attachments&, PulledPoint&, double);                                      \
     template void add_directions(const Plan<T>&, Attachments&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

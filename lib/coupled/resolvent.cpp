@@ -131,8 +131,6 @@ void resolvent(const Plan<T>& plan, const CoupledPlan<T>& own, State<T>& state, 
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void resolvent(const Plan<T>&, const CoupledPlan<T>&, State<T>&, CoupledWork<T>&, const Pole&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

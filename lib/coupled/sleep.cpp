@@ -265,8 +265,6 @@ void restore_sleep(const CoupledLanesPlan<T>& own, CoupledLanesState<T>& work, c
     template void keep_motion(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const Block&);                        \
     template std::vector<double> saved_sleep(const CoupledLanesPlan<T>&, const CoupledLanesState<T>&);                 \
     template void restore_sleep(const CoupledLanesPlan<T>&, CoupledLanesState<T>&, const std::vector<double>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -69,8 +69,6 @@ void break_joints(Plan<T>& plan, State<T>& state, World<T>& world, const std::ve
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void break_joints(Plan<T>&, State<T>&, World<T>&, const std::vector<ContactPoint>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

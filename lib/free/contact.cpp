@@ -262,8 +262,6 @@ void solve_contacts(const Plan<T>& plan, TreePoses<T>& poses, const TreeResponse
                                 ContactTests&);                                                                        \
     template void solve_contacts(const Plan<T>&, TreePoses<T>&, const TreeResponse<T>&, const TreeResponse<T>&,        \
                                  const Contact&, std::vector<FreeBody>&, std::vector<ContactPoint>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -193,8 +193,6 @@ void detach(Plan<T>& plan, State<T>& state, const Subtrees& trees, const std::ve
                                              const std::vector<std::uint32_t>&);                                       \
     template Remaining whole_tree(const Plan<T>&, const Tree&);                                                        \
     template void detach(Plan<T>&, State<T>&, const Subtrees&, const std::vector<std::uint32_t>&, Remaining&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -251,8 +251,6 @@ template <class T> void come_to_ground(const Plan<T>& plan, World<T>& world) {
     template void fly_all(const Plan<T>&, World<T>&, std::vector<Way>&);                                               \
     template std::vector<ContactPoint> meet_and_go(const Plan<T>&, State<T>&, World<T>&, std::vector<Way>&);           \
     template void come_to_ground(const Plan<T>&, World<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

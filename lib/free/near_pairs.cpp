@@ -162,8 +162,6 @@ template <class T> std::size_t NearPairs<T>::bytes() const {
 }
 
 #define BOUGH_INSTANTIATE(T) template class NearPairs<T>;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

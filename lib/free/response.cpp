@@ -74,8 +74,6 @@ void TreeResponse<T>::remake(const Plan<T>& plan, const Subtrees& trees, const s
 }
 
 #define BOUGH_INSTANTIATE(T) template class TreeResponse<T>;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

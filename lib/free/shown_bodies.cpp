@@ -49,8 +49,6 @@ std::vector<Ball> shown_balls(const Tree& tree, const Scene& scene, const std::v
 }
 
 #define BOUGH_INSTANTIATE(T) template void place_free_bodies(const World<T>&, MotionFrame&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -71,8 +71,6 @@ template <class T> const BodyPose& TreePoses<T>::of(std::size_t body) {
 }
 
 #define BOUGH_INSTANTIATE(T) template class TreePoses<T>;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

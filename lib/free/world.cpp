@@ -51,8 +51,6 @@ template <class T> std::optional<std::size_t> first_non_finite(const World<T>& w
     template struct World<T>;                                                                                          \
     template World<T> make_world(const Plan<T>&, const Tree&, const std::vector<TreeRange>&);                          \
     template std::optional<std::size_t> first_non_finite(const World<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

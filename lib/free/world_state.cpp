@@ -175,8 +175,6 @@ void restore_world(Plan<T>& plan, State<T>& state, World<T>& world, const std::v
     template std::uint64_t state_hash(const Plan<T>&, const State<T>&, const World<T>&);                               \
     template std::vector<double> saved_world(const State<T>&, const World<T>&);                                        \
     template void restore_world(Plan<T>&, State<T>&, World<T>&, const std::vector<double>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -73,8 +73,6 @@ template <class T> void advance(Plan<T>& plan, State<T>& state, World<T>& world,
 }
 
 #define BOUGH_INSTANTIATE(T) template void advance(Plan<T>&, State<T>&, World<T>&, StageClock*);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

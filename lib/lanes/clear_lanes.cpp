@@ -20,8 +20,6 @@ void clear_lanes(PlannedLanes<T>& planned, RowVector<T>& rows, const std::vector
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void clear_lanes(PlannedLanes<T>&, RowVector<T>&, const std::vector<std::size_t>&, int, int,              \
                               void (*)(const Slot<T>&), const std::vector<std::size_t>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -18,8 +18,6 @@ void explain_lanes(const Plan<T>& plan, const PlannedLanes<T>& lanes, std::initi
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void explain_lanes(const Plan<T>&, const PlannedLanes<T>&, std::initializer_list<Stage>, PlanAccount&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -159,8 +159,6 @@ template <class T> void share_scratch(const Layout& layout, Lanes<T>& lanes, std
     template void place_tables(const Plan<T>&, const PlannedLanes<T>&, State<T>&, Lanes<T>&, double, SweepRows<T>&);   \
     template void add_ports(const PlannedLanes<T>&, Lanes<T>&, int);                                                   \
     template void share_scratch(const Layout&, Lanes<T>&, std::size_t, std::size_t);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -64,8 +64,6 @@ template <class T> PlannedLanes<T>* planned_lanes(Plan<T>& plan) {
     template void lay_out_lanes(const Plan<T>&, const std::vector<TreeRange>&, PlannedLanes<T>&);                      \
     template const PlannedLanes<T>* planned_lanes(const Plan<T>&);                                                     \
     template PlannedLanes<T>* planned_lanes(Plan<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -82,8 +82,6 @@ template <class T> void SharedRows<T>::finish() {
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template std::size_t shared_rows(const PlannedLanes<T>&);                                                          \
     template class SharedRows<T>;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough::fast

@@ -29,8 +29,6 @@ bool stop_at_limit(const Vector3<T>& limit, const Matrix3<T>& L, Vector3<T>& the
 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template bool stop_at_limit(const Vector3<T>&, const Matrix3<T>&, Vector3<T>&, Vector3<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

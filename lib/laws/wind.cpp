@@ -131,9 +131,7 @@ template <class T> void evaluate_wind(const Wind& wind, double t, WindTable<T>& 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template WindTable<T> make_wind_table(const Wind&, double, double, const std::vector<double>&);                    \
     template void evaluate_wind(const Wind&, double, WindTable<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 std::optional<Wind> wind_preset(const std::string& name) {
     struct Row {

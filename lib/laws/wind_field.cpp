@@ -185,8 +185,6 @@ template <class T> void evaluate_field(const Wind& wind, double t, WindField<T>&
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template WindField<T> make_wind_field(const Wind&, double, const std::vector<double>&);                            \
     template void evaluate_field(const Wind&, double, WindField<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -109,8 +109,6 @@ void restore_attachments(std::vector<Attached>& all, const std::vector<double>& 
     template Vec3 target_at_start(const Plan<T>&, const Attached&, const Vec3&, const Vec3&);                          \
     template void lead(const Plan<T>&, Attached&, double);                                                             \
     template bool changes(const Plan<T>&, const Attached&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

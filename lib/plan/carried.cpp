@@ -48,8 +48,6 @@ template <class T> std::vector<Vec3> carried_drag(const Plan<T>& plan, const Tre
     template void plan_surfaces(Plan<T>&, const Tree&);                                                                \
     template std::vector<Vec3> carried_moments(const Plan<T>&, const Tree&);                                           \
     template std::vector<Vec3> carried_drag(const Plan<T>&, const Tree&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

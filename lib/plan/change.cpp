@@ -19,8 +19,6 @@ template <class T> void change_step(Plan<T>& plan, State<T>& state, double dt) {
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void scale_wood(Plan<T>&, State<T>&, double, double);                                                     \
     template void change_step(Plan<T>&, State<T>&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -88,8 +88,6 @@ void expand_frame(const Reduced& r, const Tree& whole, const Plan<T>& plan, cons
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template WholePose whole_pose(const Reduced&, const Plan<T>&, const State<T>&, std::size_t);                       \
     template void expand_frame(const Reduced&, const Tree&, const Plan<T>&, const State<T>&, MotionFrame&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

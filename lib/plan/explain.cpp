@@ -127,8 +127,6 @@ template <class T> PlanAccount explain(const Plan<T>& plan) {
     template std::string moved_roots(const Plan<T>&);                                                                  \
     template std::string limited_angles(const Plan<T>&);                                                               \
     template bool callers_forces(const Plan<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -7,8 +7,6 @@ template <class T> void move_ground(const Plan<T>& plan, State<T>& state, double
 }
 
 #define BOUGH_INSTANTIATE(T) template void move_ground(const Plan<T>&, State<T>&, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -294,8 +294,6 @@ Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene
                                std::unique_ptr<Stepper<T>>);                                                           \
     template Plan<T> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double,             \
                                std::unique_ptr<Stepper<T>>);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -103,8 +103,6 @@ template <class T> std::vector<T> shelter_factors(const Plan<T>& plan, const std
 }
 
 #define BOUGH_INSTANTIATE(T) template std::vector<T> shelter_factors(const Plan<T>&, const std::vector<double>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -17,8 +17,6 @@ template <class T> void bending_stresses(const Plan<T>& plan, const State<T>& st
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void spring_torque(const Plan<T>&, State<T>&);                                                            \
     template void bending_stresses(const Plan<T>&, const State<T>&, std::vector<double>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -83,8 +83,6 @@ template <class T> std::optional<NonFinite> Stepper<T>::non_finite(const Plan<T>
     template std::uint64_t state_hash(const Plan<T>&, const State<T>&);                                                \
     template std::optional<std::size_t> first_non_finite(const State<T>&);                                             \
     template std::optional<NonFinite> Stepper<T>::non_finite(const Plan<T>&, State<T>&) const;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -61,8 +61,6 @@ template <class T> void update_kinematics(const Plan<T>& plan, State<T>& state) 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void update_kinematics(const Plan<T>&, State<T>&);                                                        \
     template void state_update(const Plan<T>&, State<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -196,8 +196,6 @@ TipError RunError::result() const {
 }
 
 #define BOUGH_INSTANTIATE(T) template class ErrorEstimate<T>;
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

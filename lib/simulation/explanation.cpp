@@ -59,8 +59,6 @@ template <class T> std::string explanation(const Plan<T>& plan, const std::vecto
 }
 
 #define BOUGH_INSTANTIATE(T) template std::string explanation(const Plan<T>&, const std::vector<std::string>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -57,8 +57,6 @@ template <class T> void release_hand(Run<T>& run, std::uint64_t number) {
     template std::vector<Attached> hands_of(const Run<T>&);                                                            \
     template void adopt_hand(Run<T>&, const Attached&, std::size_t);                                                   \
     template void release_hand(Run<T>&, std::uint64_t);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

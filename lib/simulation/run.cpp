@@ -136,8 +136,6 @@ template <class T> void show_all(const Assembly& assembly, const Run<T>& run, Mo
     template std::optional<std::size_t> fill_frame(const Plan<T>&, const State<T>&, const MotionFields&,               \
                                                    MotionFrame&);                                                      \
     template void show_all(const Assembly&, const Run<T>&, MotionFrame&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

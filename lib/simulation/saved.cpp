@@ -77,8 +77,6 @@ template <class T> void restore_run(const SavedState& saved, std::int64_t step, 
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template void save_run(Run<T>&, std::int64_t, SavedState&);                                                        \
     template void restore_run(const SavedState&, std::int64_t, Run<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

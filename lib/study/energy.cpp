@@ -47,8 +47,6 @@ template <class T> Energy energy(const Plan<T>& plan, const State<T>& s) {
 #define BOUGH_INSTANTIATE(T)                                                                                           \
     template std::vector<BodyMotion> body_motions(const Plan<T>&, const State<T>&);                                    \
     template Energy energy(const Plan<T>&, const State<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

@@ -73,8 +73,6 @@ Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene
                                Solver, Scheme, std::optional<fast::Target>, double, double);                           \
     template Plan<T> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,     \
                                Scheme, std::optional<fast::Target>, double, double);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "../base/instantiate.inc"
 
 } // namespace bough

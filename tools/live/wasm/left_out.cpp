@@ -57,8 +57,6 @@ std::uint64_t fingerprint(const Tree&, const Scene&) {
     template void fast::CoupledLanesStepper<T>::explain(const Plan<T>&, PlanAccount&) const;                           \
     template void save_run(Run<T>&, std::int64_t, SavedState&);                                                        \
     template void restore_run(const SavedState&, std::int64_t, Run<T>&);
-BOUGH_INSTANTIATE(float)
-BOUGH_INSTANTIATE(double)
-#undef BOUGH_INSTANTIATE
+#include "lib/base/instantiate.inc"
 
 } // namespace bough
