@@ -1,5 +1,6 @@
 #include "resolve.h"
 #include "../model/body_shape.h"
+#include "../model/tree_arrays.h"
 #include "carry.h"
 #include "resolve_sums.h"
 #include <Eigen/LU>
@@ -247,10 +248,7 @@ void Lumper::match_give() {
 }
 
 Tree Lumper::run() {
-    tree_.name = whole_.name;
-    tree_.material = whole_.material;
-    tree_.source = whole_.source;
-    tree_.color = whole_.color;
+    copy_names(tree_, whole_);
     tree_.resize(chosen_.size());
     tree_.drag.assign(chosen_.size(), 1);
     tree_.leaf_count.assign(chosen_.size(), 1);

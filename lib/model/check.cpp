@@ -3,6 +3,7 @@
 #include "check_parts.h"
 #include "splines.h"
 #include "tree.h"
+#include "tree_arrays.h"
 #include <Eigen/Eigenvalues>
 #include <limits>
 
@@ -241,26 +242,16 @@ std::optional<Defect> check(const Splines& splines) {
 std::optional<Defect> check(const Tree& tree) {
     Rules rules;
     const std::size_t n = tree.size_bodies();
-    const char* each = "one for each body";
-    rules.rule(n > 0, "parent", -1, "is empty, expected at least one body")
-        .length("kind", tree.kind, n, each)
-        .length("mass", tree.mass, n, each)
-        .length("com", tree.com, n, each)
-        .length("inertia", tree.inertia, n, each)
-        .length("joint_position", tree.joint_position, n, each)
-        .length("joint_rotation", tree.joint_rotation, n, each)
-        .length("stiffness", tree.stiffness, n, each)
-        .length("damping", tree.damping, n, each)
-        .length("size", tree.size, n, each)
-        .length("branch", tree.branch, n, each)
-        .length("level", tree.level, n, each)
-        .length("s", tree.s, n, each)
-        .length("rigid", tree.rigid, tree.rigid.empty() ? 0 : n, "none, or one for each body")
-        .length("leaf_count", tree.leaf_count, tree.leaf_count.empty() ? 0 : n, "none, or one for each body")
-        .length("leaf_length", tree.leaf_length, tree.leaf_length.empty() ? 0 : n, "none, or one for each body")
-        .length("leaf_width", tree.leaf_width, tree.leaf_length.size(), "as many as /leaf_length")
-        .length("leaf_facing", tree.leaf_facing, tree.leaf_facing.empty() ? 0 : n, "none, or one for each body")
-        .length("drag", tree.drag, tree.drag.empty() ? 0 : n, "none, or one for each body");
+    rules.rule(n > 0, "parent", -1, "is empty, expected at least one body");
+    const auto length = [&](const char* name, const auto& absent, const auto& array) {
+        if constexpr (always_there<std::decay_t<decltype(absent)>>)
+            rules.length(name, array, n, "one for each body");
+        else if (name == std::string_view("leaf_width"))
+            rules.length(name, array, tree.leaf_length.size(), "as many as /leaf_length");
+        else if (name != std::string_view("load")) // no document's
+            rules.length(name, array, array.empty() ? 0 : n, "none, or one for each body");
+    };
+    each_array(length, tree);
     if (rules.defect) return rules.defect;
 
     rules.parents(tree.parent)

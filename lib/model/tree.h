@@ -94,9 +94,4 @@ inline double foliage_area(const Tree& tree, std::size_t i) {
 // 0 with a length > 0, finite numbers, s in 0..1. O(bodies).
 std::optional<Defect> check(const Tree&);
 
-// Appends `more` to `tree`, turned by yaw [rad] about +Y and moved by position [m]. A scene stands several trees in one world this way. Branch
-// numbers of `more` are shifted behind those present. Name, material, source and colours stay those of the first tree. Returns the first body's
-// index.
-std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw);
-
 } // namespace bough

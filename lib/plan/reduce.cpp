@@ -1,6 +1,7 @@
 #include "reduce.h"
 #include "../laws/leaf_air.h"
 #include "../laws/wind_field.h"
+#include "../model/tree_arrays.h"
 #include "reduce_air.h"
 #include <algorithm>
 
@@ -44,44 +45,17 @@ void place_ranges(Reduced& r) {
 // What a leader brings along.
 void copy_leaders(const Tree& whole, Reduced& r) {
     Tree& t = r.tree;
-    t.name = whole.name;
-    t.material = whole.material;
-    t.source = whole.source;
-    t.color = whole.color;
-    t.resize(r.leader.size());
-    if (!whole.load.empty()) t.load.assign(r.leader.size(), 0);
-    if (!whole.leaf_count.empty()) t.leaf_count.assign(r.leader.size(), 1);
-    if (!whole.leaf_length.empty()) t.leaf_length.assign(r.leader.size(), 0);
-    if (!whole.leaf_width.empty()) t.leaf_width.assign(r.leader.size(), 0);
-    if (!whole.leaf_facing.empty()) t.leaf_facing.assign(r.leader.size(), 0);
-    if (!whole.drag.empty()) t.drag.assign(r.leader.size(), 1);
+    t = copied(whole, r.leader);
+    t.rigid.clear();
+    std::fill(t.load.begin(), t.load.end(), 0);
     for (std::size_t g = 0; g < r.leader.size(); ++g) {
         const auto i = std::size_t(r.leader[g]);
         const std::int32_t p = whole.parent[i];
-        const bool on_held = p >= 0 && !whole.rigid.empty() && whole.rigid[std::size_t(p)] != 0;
         t.parent[g] = p < 0 ? -1 : r.body[std::size_t(p)];
-        t.kind[g] = whole.kind[i];
-        t.mass[g] = whole.mass[i];
-        t.com[g] = whole.com[i];
-        t.inertia[g] = whole.inertia[i];
-        t.joint_position[g] = whole.joint_position[i];
-        t.joint_rotation[g] = whole.joint_rotation[i];
-        if (on_held) {
-            const auto q = std::size_t(p);
-            t.joint_position[g] = r.offset[q] + r.rotation[q] * whole.joint_position[i];
-            t.joint_rotation[g] = (r.rotation[q] * whole.joint_rotation[i]).normalized();
-        }
-        t.stiffness[g] = whole.stiffness[i];
-        t.damping[g] = whole.damping[i];
-        t.size[g] = whole.size[i];
-        t.branch[g] = whole.branch[i];
-        t.level[g] = whole.level[i];
-        t.s[g] = whole.s[i];
-        if (!whole.leaf_count.empty()) t.leaf_count[g] = whole.leaf_count[i];
-        if (!whole.leaf_length.empty()) t.leaf_length[g] = whole.leaf_length[i];
-        if (!whole.leaf_width.empty()) t.leaf_width[g] = whole.leaf_width[i];
-        if (!whole.leaf_facing.empty()) t.leaf_facing[g] = whole.leaf_facing[i];
-        if (!whole.drag.empty()) t.drag[g] = whole.drag[i];
+        if (p < 0 || whole.rigid.empty() || whole.rigid[std::size_t(p)] == 0) continue;
+        const auto q = std::size_t(p);
+        t.joint_position[g] = r.offset[q] + r.rotation[q] * whole.joint_position[i];
+        t.joint_rotation[g] = (r.rotation[q] * whole.joint_rotation[i]).normalized();
     }
 }
 

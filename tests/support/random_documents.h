@@ -4,7 +4,7 @@
 #include "lib/model/motion.h"
 #include "lib/model/scene.h"
 #include "lib/model/splines.h"
-#include "lib/model/tree.h"
+#include "lib/model/tree_arrays.h"
 #include "replaced.h"
 #include <bit>
 #include <catch2/catch.hpp>
@@ -243,14 +243,9 @@ template <class T> bool same(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 inline bool same(const Tree& a, const Tree& b) {
-    return same(a.parent, b.parent) && same(a.kind, b.kind) && same(a.mass, b.mass) && same(a.com, b.com) &&
-           same(a.inertia, b.inertia) && same(a.joint_position, b.joint_position) &&
-           same(a.joint_rotation, b.joint_rotation) && same(a.stiffness, b.stiffness) && same(a.damping, b.damping) &&
-           same(a.size, b.size) && same(a.branch, b.branch) && same(a.level, b.level) && same(a.s, b.s) &&
-           same(a.rigid, b.rigid) && same(a.load, b.load) && same(a.leaf_count, b.leaf_count) &&
-           same(a.leaf_length, b.leaf_length) && same(a.leaf_width, b.leaf_width) &&
-           same(a.leaf_facing, b.leaf_facing) && same(a.drag, b.drag) && a.name == b.name && a.material == b.material &&
-           a.source == b.source && same(a.color, b.color);
+    bool all = a.name == b.name && a.material == b.material && a.source == b.source && same(a.color, b.color);
+    each_array([&](const char*, const auto&, const auto& x, const auto& y) { all = all && same(x, y); }, a, b);
+    return all;
 }
 
 inline bool same(const Splines& a, const Splines& b) {

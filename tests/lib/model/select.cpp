@@ -1,4 +1,5 @@
 #include "lib/growth/segment.h"
+#include "lib/model/place.h"
 #include "lib/model/scene.h"
 #include <catch2/catch.hpp>
 
