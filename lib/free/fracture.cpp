@@ -4,6 +4,7 @@
 #include "../laws/air.h"
 #include "../laws/leaf_air.h"
 #include "../model/bending_stress.h"
+#include "../model/of_kind.h"
 #include <algorithm>
 #include <numbers>
 
@@ -19,21 +20,10 @@ double normal_draw(RandomKey key) {
     return std::sqrt(-2 * std::log(u)) * std::cos(angle);
 }
 
-double of_kind(const Fracture& f, const Tree& tree, std::size_t i) {
-    switch (tree.kind[i]) {
-    case Kind::leaf:
-    case Kind::clump:
-    case Kind::tuft:
-        return f.leaf;
-    case Kind::petal:
-        return f.petal;
-    case Kind::fruit:
-        return f.fruit;
-    case Kind::branch:
-        break;
-    }
-    if (!(f.strength < Fracture::never)) return f.branch;
-    return std::min(f.branch, f.strength * section_modulus(tree.size[i][1]));
+double threshold(const Fracture& f, const Tree& tree, std::size_t i) {
+    const double torque = of_kind(f, tree.kind[i]);
+    if (tree.kind[i] != Kind::branch || !(f.strength < Fracture::never)) return torque;
+    return std::min(torque, f.strength * section_modulus(tree.size[i][1]));
 }
 
 } // namespace
@@ -51,7 +41,7 @@ std::vector<Breakable> breakable_joints(const Tree& tree, const std::vector<Tree
     std::stable_sort(single.begin(), single.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::size_t next = 0;
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        double torque = of_kind(f, tree, i);
+        double torque = threshold(f, tree, i);
         const bool varies = f.spread > 0 && torque < Fracture::never;
         if (varies) torque *= std::exp(f.spread * normal_draw(random_key(f.seed, 0, i)));
         for (; next < single.size() && single[next].first == i; ++next) torque = single[next].second;

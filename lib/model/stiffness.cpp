@@ -26,18 +26,8 @@ Vec3 rod_stiffness(double modulus, double length, double radius) {
 
 double damping_ratio(const Material& material, const Tree& tree, std::size_t i) {
     if (is_clump(tree, i)) return clump_damping_ratio;
-    const Kind kind = tree.kind[i];
-    switch (kind) {
-    case Kind::leaf:
-    case Kind::petal:
-    case Kind::clump:
-    case Kind::tuft:
-        return material.leaf_damping_ratio;
-    case Kind::fruit:
-        return material.fruit_damping_ratio;
-    case Kind::branch:
-        break;
-    }
+    if (is_foliage(tree.kind[i])) return material.leaf_damping_ratio;
+    if (tree.kind[i] == Kind::fruit) return material.fruit_damping_ratio;
     return material.damping_ratio;
 }
 

@@ -1,5 +1,6 @@
 #include "wood_overrides.h"
 #include "../base/monotone.h"
+#include "of_kind.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,25 +21,9 @@ bool is_fork(const Tree& tree, std::size_t i) {
     return p >= 0 && is_branch(tree, i) && is_branch(tree, std::size_t(p)) && !continues_parent(tree, i);
 }
 
-const WoodFactors& factors_of(const Wood& wood, Kind kind) {
-    switch (kind) {
-    case Kind::leaf:
-        return wood.leaf;
-    case Kind::petal:
-    case Kind::clump:
-    case Kind::tuft:
-        return wood.petal;
-    case Kind::fruit:
-        return wood.fruit;
-    case Kind::branch:
-        break;
-    }
-    return wood.branch;
-}
-
 void multiply(Tree& tree, const Wood& wood) {
     for (std::size_t i = 0; i < tree.size_bodies(); ++i) {
-        const WoodFactors& by = factors_of(wood, tree.kind[i]);
+        const WoodFactors& by = of_kind(wood, tree.kind[i]);
         tree.stiffness[i] *= by.stiffness;
         tree.damping[i] *= by.damping;
         tree.mass[i] *= by.density;
