@@ -51,13 +51,8 @@ Plan<T> plan_of(TreeType&& tree, const Assembly& assembly, Wishes wishes, double
 
 } // namespace
 
-void keep_to_the_whole(const Part& part, Method method, StepChoice& choice) {
-    if (part.parts > 1 || part.moved) choice.sleep = 0;
-    if (part.moved && method == Method::analytic) choice.simd.reset(); // as for the whole
-}
-
 template <class T> std::unique_ptr<Stepper<T>> stepper_of(const Assembly& assembly, StepChoice choice) {
-    keep_to_the_whole(assembly.part, choice.method, choice);
+    keep_to_the_whole(assembly.part, choice.method == Method::analytic, choice);
     return choice.method == Method::coupled
                ? fast::coupled_stepper<T>(assembly.scene, Scheme::p12, choice.simd, choice.sleep)
                : fast::analytic_stepper<T>(assembly.scene, choice.simd, choice.sleep);

@@ -17,7 +17,11 @@ struct StepChoice {
 };
 
 // Takes away what a part of a scene must not do because the whole would not: its trees share blocks with others, and the ground of some may move.
-void keep_to_the_whole(const Part&, Method, StepChoice&);
+// Choice: has simd and sleep, as StepChoice has.
+template <class Choice> void keep_to_the_whole(const Part& part, bool analytic, Choice& choice) {
+    if (part.parts > 1 || part.moved) choice.sleep = 0;
+    if (part.moved && analytic) choice.simd.reset(); // as for the whole
+}
 
 // Makes the stepper of the coupled or the analytic method.
 template <class T> std::unique_ptr<Stepper<T>> stepper_of(const Assembly&, StepChoice);

@@ -39,40 +39,15 @@ void refuse(Solver solver, const Scene& scene) {
 
 StepperMaker stepper_maker(const SolverChoice& choice) {
     const auto of = [choice](const Assembly& assembly) {
-        StepChoice step{choice.solver == Solver::analytic ? Method::analytic : Method::coupled, choice.simd,
-                        choice.sleep};
-        keep_to_the_whole(assembly.part, step.method, step);
         SolverChoice kept = choice;
-        kept.simd = step.simd;
-        kept.sleep = step.sleep;
+        keep_to_the_whole(assembly.part, choice.solver == Solver::analytic, kept);
         return kept;
     };
     return {[of](const Assembly& assembly) { return make_stepper<float>(of(assembly), assembly.scene); },
             [of](const Assembly& assembly) { return make_stepper<double>(of(assembly), assembly.scene); }};
 }
 
-template <class T>
-Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
-                  double tolerance) {
-    return make_plan<T>(tree, ranges, scene, wishes, dt,
-                        make_stepper<T>({solver, scheme, simd, sleep, tolerance}, scene));
-}
-
-template <class T>
-Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
-                  double dt, Solver solver, Scheme scheme, std::optional<fast::Target> simd, double sleep,
-                  double tolerance) {
-    return make_plan<T>(std::move(tree), ranges, scene, wishes, dt,
-                        make_stepper<T>({solver, scheme, simd, sleep, tolerance}, scene));
-}
-
-#define BOUGH_INSTANTIATE(T)                                                                                           \
-    template std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice&, const Scene&);                              \
-    template Plan<T> make_plan(const Tree&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double,        \
-                               Solver, Scheme, std::optional<fast::Target>, double, double);                           \
-    template Plan<T> make_plan(Tree&&, const std::vector<TreeRange>&, const Scene&, const Wishes&, double, Solver,     \
-                               Scheme, std::optional<fast::Target>, double, double);
+#define BOUGH_INSTANTIATE(T) template std::unique_ptr<Stepper<T>> make_stepper(const SolverChoice&, const Scene&);
 #include "../base/instantiate.inc"
 
 } // namespace bough

@@ -53,14 +53,13 @@ StepperMaker stepper_maker(const SolverChoice&);
 // Throws std::domain_error for what of a scene a solver cannot hold.
 void refuse(Solver, const Scene&);
 
-// make_plan with any solver.
-template <class T>
-Plan<T> make_plan(const Tree& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
-                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
-                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double tolerance = 1e-8);
-template <class T>
-Plan<T> make_plan(Tree&& tree, const std::vector<TreeRange>& ranges, const Scene&, const Wishes&, double dt,
-                  Solver solver = Solver::analytic, Scheme scheme = Scheme::p12,
-                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double tolerance = 1e-8);
+// make_plan with any solver. tree: const Tree& or Tree&&, as make_plan takes it.
+template <class T, class TreeType>
+Plan<T> make_plan(TreeType&& tree, const std::vector<TreeRange>& ranges, const Scene& scene, const Wishes& wishes,
+                  double dt, Solver solver, Scheme scheme = Scheme::p12,
+                  std::optional<fast::Target> simd = std::nullopt, double sleep = 0, double tolerance = 1e-8) {
+    return make_plan<T>(std::forward<TreeType>(tree), ranges, scene, wishes, dt,
+                        make_stepper<T>({solver, scheme, simd, sleep, tolerance}, scene));
+}
 
 } // namespace bough

@@ -115,7 +115,7 @@ template <class T> bool must_settle(const Plan<T>& plan, const StabilitySetup& s
     Scene bare;
     bare.gravity.setZero();
     bare.pose = Pose::rest;
-    const Plan<double> still = make_plan<double>(setup.tree, setup.ranges, bare, {}, setup.dt);
+    const Plan<double> still = make_plan<double>(setup.tree, setup.ranges, bare, {}, setup.dt, Solver::analytic);
     return first_mode(still).frequency * setup.dt * double(frames) / 4 >= 1;
 }
 

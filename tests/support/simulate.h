@@ -13,7 +13,8 @@ template <class T> struct PlainRun {
     Plan<T> plan;
     State<T> state;
     PlainRun(const Tree& tree, const Scene& scene, double dt = 1.0 / 30, const Wishes& wishes = {})
-        : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, wishes, dt)), state(make_state(plan)) {}
+        : plan(make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, wishes, dt, Solver::analytic)),
+          state(make_state(plan)) {}
     void steps(int n) {
         for (int k = 0; k < n; ++k) advance(plan, state);
     }

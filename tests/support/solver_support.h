@@ -11,7 +11,7 @@ using namespace bough;
 
 template <class T = double>
 Plan<T> plan_of(const Tree& tree, const Scene& scene, double dt = 1.0 / 30, const Wishes& wishes = {}) {
-    return make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, wishes, dt);
+    return make_plan<T>(tree, {{0, tree.size_bodies(), 0}}, scene, wishes, dt, Solver::analytic);
 }
 
 // No gravity, the drawn tree at rest: what a test adds is all that acts.

@@ -301,17 +301,17 @@ TEST_CASE("Of two trees the one that is named moves, and the wind's table covers
     m.position[1] = Vec3(1, 7, 0);
     scene.root_motion = {m};
     const std::vector<TreeRange> ranges{{0, n, 0}, {n, n, 5}};
-    const Plan<double> plan = make_plan<double>(both, ranges, scene, {}, 0.01);
+    const Plan<double> plan = make_plan<double>(both, ranges, scene, {}, 0.01, Solver::analytic);
     Scene plain = scene;
     plain.root_motion.clear();
-    const Plan<double> resting = make_plan<double>(both, ranges, plain, {}, 0.01);
+    const Plan<double> resting = make_plan<double>(both, ranges, plain, {}, 0.01, Solver::analytic);
     CHECK(plan.top == Approx(resting.top + 7));
     State<double> state = make_state(plan), still = make_state(resting);
     for (int k = 0; k < 120; ++k) advance(plan, state), advance(resting, still);
     CHECK((state.x_w[n] - both.joint_position[n] - Vec3(1, 7, 0)).norm() < 1e-12);
     CHECK(state.x_w[0] == both.joint_position[0]);
     scene.root_motion[0].tree = 2;
-    CHECK_THROWS_AS(make_plan<double>(both, ranges, scene, {}, 0.01), std::out_of_range);
+    CHECK_THROWS_AS(make_plan<double>(both, ranges, scene, {}, 0.01, Solver::analytic), std::out_of_range);
 }
 
 TEST_CASE("A run that is cut and gone on with is the run in one") {
