@@ -1,5 +1,6 @@
 #include "held_inputs.h"
-#include "open.h"
+#include "error.h"
+#include "input_name.h"
 #include <map>
 #include <mutex>
 #include <optional>

@@ -37,10 +37,6 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-std::string input_name(const std::string& path) {
-    return path == "-" ? "<stdin>" : path;
-}
-
 namespace {
 
 // What the system says of an input that is open.

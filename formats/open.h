@@ -2,6 +2,7 @@
 #pragma once
 #include "error.h"
 #include "file_version.h"
+#include "input_name.h"
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -40,8 +41,6 @@ private:
     FileVersion opened_{};
 };
 
-// How an input is called in messages: its path, "<stdin>" for "-".
-std::string input_name(const std::string& path);
 // Where files stand that an input names: its folder, "." for a bare name, "" for "-", which has none.
 std::string folder_of(const std::string& path);
 

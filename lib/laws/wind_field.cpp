@@ -1,7 +1,7 @@
 #include "wind_field.h"
 #include "../base/angles.h"
 #include "../base/monotone.h"
-#include "wind.h"
+#include "wind_weather.h"
 #include <array>
 #include <stdexcept>
 #include <string>

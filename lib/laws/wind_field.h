@@ -4,8 +4,8 @@
 //   v_c(t) = V_c (1 + sum_k p_c^k sin(2^k (2 pi f t + phase_c) + psi_k) / sum_k p_c^k) G(t) + Q(t),   k = 0 ... octaves_c - 1
 // V_c is the cell's mean velocity (the wind's own where the grid names none), p the persistence; psi_0 = 0, the others come from the seed. So v_c
 // swings between 0 and 2 V_c and is periodic with 1 / f. A cell whose phase is ahead has the same gusts earlier: phases that fall along the wind are
-// gusts that travel. G and Q are the gusts' factor and the turbulence of the wind as a whole (wind.h), the same in all cells. Outside the grid the
-// nearest cell holds. Without a grid there is one cell, whose octaves are 0.
+// gusts that travel. G and Q are the gusts' factor and the turbulence of the wind as a whole (wind_weather.h), the same in all cells. Outside the
+// grid the nearest cell holds. Without a grid there is one cell, whose octaves are 0.
 //
 // Swirl. The paper turns v by adding h s, s = v x j normalised, and rescaling to |v|. As v and s are at right angles, that is
 //   v' = v cos a + |v| s sin a,   h = |v| tan a,   a(r, t) = A(r) sin(2 pi (t / period - r / wavelength))
@@ -39,17 +39,6 @@ inline bool one_way(const Wind& wind) {
 bool blows(const Wind&);
 // True if it blows the same at all times.
 bool steady(const Wind&);
-
-// The wind as a whole at one time.
-struct WindWeather {
-    double gust = 1;                // [1] G
-    Vec3 turbulence = Vec3::Zero(); // [m/s] Q
-};
-
-// Returns a period as it is taken: where the wind repeats, the nearest period that goes a whole number of times into Wind::period.
-inline double whole_period(const Wind& wind, double period) {
-    return wind.period ? *wind.period / std::max(1.0, std::round(*wind.period / period)) : period;
-}
 
 // Returns v turned about the vertical by the angle of cosine c and sine s. A v straight up stays.
 template <class T> Vector3<T> swirled(const Vector3<T>& v, T c, T s) {

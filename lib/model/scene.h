@@ -98,7 +98,8 @@ struct Wind {
     std::optional<WindShelter> shelter;
     // [s] after which all of it repeats: each frequency is the nearest multiple of 1 / period, at least one
     std::optional<double> period;
-    // [s] How far turbulence and gusts are ahead of time, for a wind that was changed in a run (go_on of laws/wind.h). No document holds these.
+    // [s] How far turbulence and gusts are ahead of time, for a wind that was changed in a run (go_on of laws/wind_weather.h). No document holds
+    // these.
     double turbulence_ahead = 0, gust_ahead = 0;
 
     bool operator==(const Wind&) const = default;

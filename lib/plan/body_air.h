@@ -1,5 +1,6 @@
 // body_air.h: what every solver, guard and reference asks about the air at a body: what the laws take of the body (laws/air_load.h), and
-// the wind there, with its shelter and its tree's clock. WindTable::at and wind_factor (laws/wind.h) hold what else a wind does at a place.
+// the wind there, with its shelter and its tree's clock. WindTable::at (laws/wind.h) and wind_factor (wind_weather.h) hold what else a wind does at a
+// place.
 #pragma once
 #include "../laws/air.h"
 #include "../laws/leaf_air.h"

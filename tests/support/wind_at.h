@@ -1,4 +1,4 @@
-// wind_at.h: the wind's definition (lib/laws/wind.h, wind_field.h), evaluated at one place: what the tables that steps look up are held against.
+// wind_at.h: the wind's definition (lib/laws/wind_weather.h, wind_field.h), evaluated at one place. The tables that steps look up are held against it.
 #pragma once
 #include "lib/base/monotone.h"
 #include "lib/laws/wind.h"
