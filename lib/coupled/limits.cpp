@@ -44,17 +44,9 @@ template <class T> void stop(const Plan<T>& plan, State<T>& state, CoupledWork<T
     }
     for (std::size_t i = 0; i < plan.bodies; ++i) {
         const CoupledBody<T>& b = work.coupled[i];
-        ResolventBody<T>& q = body[i];
-        Vector3<T> alpha = Vector3<T>::Zero(), a = Vector3<T>::Zero();
-        if (plan.parent[i] >= 0) {
-            const ResolventBody<T>& p = body[std::size_t(plan.parent[i])];
-            alpha = p.alpha;
-            a = p.a + p.alpha.cross(b.r);
-        }
-        const Vector3<T> gamma = q.E * (q.u - q.A * alpha - q.B * a);
-        q.alpha = alpha + gamma;
-        q.a = a;
-        state.theta_dot[i] += b.rates * gamma;
+        const ResolventBody<T>* const p = plan.parent[i] < 0 ? nullptr : &body[std::size_t(plan.parent[i])];
+        const Vector3<T> none = Vector3<T>::Zero();
+        state.theta_dot[i] += b.rates * accelerated(body[i], b.r, p ? p->alpha : none, p ? p->a : none);
         for (int k = 0; k < 3; ++k)
             if (work.theta_change[i][k] > 0) state.theta_dot[i][k] = 0;
     }
