@@ -15,13 +15,14 @@ constexpr const char* cylinders = "write the cylinders as text (TreeQSM: save_mo
 constexpr const char* scene = "export the tree's skeleton from its program as SWC or another text format";
 constexpr const char* unpack = "unpack it first";
 
-// How a file begins (with '?' for any byte), what it is, what to do.
-struct Begin {
-    std::string_view begins;
+// A file that is known and not read: what tells it, what it is, what to do.
+struct Known {
+    std::string_view mark;
     const char* is;
     const char* advice;
 };
-constexpr std::array<Begin, 28> begins{{
+// How it begins, with '?' for any byte.
+constexpr std::array<Known, 28> begins{{
     {"SRT ", "a compiled SpeedTree tree (.srt), which holds no skeleton", raw_xml},
     {"SpeedTree", "a compiled SpeedTree tree, which holds no skeleton", raw_xml},
     {"????SpeedTree", "a compiled SpeedTree tree, which holds no skeleton", raw_xml},
@@ -55,13 +56,8 @@ constexpr std::array<Begin, 28> begins{{
     {"\xFE\xFF", "UTF-16 text", "save it as UTF-8"},
 }};
 
-// What an ending says where the content says nothing.
-struct KnownEnding {
-    std::string_view ends;
-    const char* is;
-    const char* advice;
-};
-constexpr std::array<KnownEnding, 29> known_endings{{
+// What its name ends with, where the content says nothing.
+constexpr std::array<Known, 29> known_endings{{
     {".srt", "a compiled SpeedTree tree (.srt), which holds no readable skeleton", raw_xml},
     {".spm", "a SpeedTree Modeler file (.spm), which holds no readable skeleton", raw_xml},
     {".st", "a SpeedTree file (.st), which holds no readable skeleton", raw_xml},
@@ -102,16 +98,16 @@ bool matches(std::string_view content, std::string_view pattern) {
     return true;
 }
 
-const Begin* known_begin(std::string_view content) {
-    for (const Begin& begin : begins)
-        if (matches(content, begin.begins)) return &begin;
+const Known* known_begin(std::string_view content) {
+    for (const Known& begin : begins)
+        if (matches(content, begin.mark)) return &begin;
     return nullptr;
 }
 
-const KnownEnding* known_ending(const std::string& name) {
+const Known* known_ending(const std::string& name) {
     const std::string file = lower_case(name);
-    for (const KnownEnding& ending : known_endings)
-        if (file.ends_with(ending.ends)) return &ending;
+    for (const Known& ending : known_endings)
+        if (file.ends_with(ending.mark)) return &ending;
     return nullptr;
 }
 
@@ -156,11 +152,11 @@ bool is_known_unread(std::string_view content, const std::string& name) {
 
 void refuse_unread(std::string_view content, const std::string& name) {
     if (content.empty()) throw InputError(name, std::string("is empty, ") + readable);
-    if (const Begin* begin = known_begin(content)) refuse(name, begin->is, begin->advice);
+    if (const Known* begin = known_begin(content)) refuse(name, begin->is, begin->advice);
     const std::string_view head = content.substr(0, 4096);
     const std::size_t first = text_start(head);
     if (first == head.size()) throw InputError(name, std::string("is blank, ") + readable);
-    if (const KnownEnding* ending = known_ending(name)) refuse(name, ending->is, ending->advice);
+    if (const Known* ending = known_ending(name)) refuse(name, ending->is, ending->advice);
     if (head[first] == '<') refuse_xml(head, name);
     refuse_json(head, name);
     if (holds(head, std::string_view("\0", 1)))
