@@ -86,7 +86,62 @@ template <class T> struct Held {
         }
         return sum;
     }
+    // [J] The most in the first 60 of 240 frames, and in the third and the last 60.
+    struct Energies {
+        double early = 0, third = 0, last = 0;
+    };
+    Energies energies() {
+        Energies most;
+        for (int f = 0; f < 240; ++f) {
+            step();
+            const double energy = kinetic();
+            REQUIRE(std::isfinite(energy));
+            if (f < 60) most.early = std::max(most.early, energy);
+            if (f >= 120 && f < 180) most.third = std::max(most.third, energy);
+            if (f >= 180) most.last = std::max(most.last, energy);
+        }
+        return most;
+    }
 };
+
+// 240 steps of 1/120 s, one number at a time and in lanes, in both precisions. see(plain, lanes): what else is looked at, at the end.
+template <class See> void check_lanes(const Tree& tree, const Scene& scene, const See& see) {
+    for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
+        Held<double> plain(tree, scene, false, 1.0 / 120, scheme), lanes(tree, scene, true, 1.0 / 120, scheme);
+        Held<float> single(tree, scene, true, 1.0 / 120, scheme);
+        double moved = 0, off = 0, off_single = 0;
+        for (int f = 0; f < 240; ++f) {
+            plain.step();
+            lanes.step();
+            single.step();
+            for (std::size_t i = 0; i < plain.plan.bodies; ++i) {
+                const Vec3& x = plain.state.x_w[i];
+                moved = std::max(moved, plain.state.theta[i].norm());
+                off = std::max(off, (x - lanes.state.x_w[i]).norm());
+                off_single = std::max(off_single, (x - single.state.x_w[i].cast<double>()).norm());
+            }
+        }
+        CAPTURE(scheme_of(scheme).name);
+        CHECK(moved > 0.1);
+        CHECK(off < 1e-9);
+        CHECK(off_single < 5e-3);
+        see(plain, lanes);
+    }
+}
+
+// The first two attachments led about from where they are, a and b.
+inline void check_order(Motion motion, const Vec3& a, const Vec3& b) {
+    motion.scene.attachments[0].time = {0, 0.4, 0.8, 1};
+    motion.scene.attachments[1].time = {0, 0.5, 1};
+    motion.scene.attachments[0].position = {a, a + Vec3(0.2, 0, 0.1), a + Vec3(0, -0.1, 0.2), a};
+    motion.scene.attachments[1].position = {b, b + Vec3(0, -0.1, 0.1), b};
+    const Track truth = truth_of(motion);
+    const double coarse = error_of(motion, truth, Scheme::p12, 1), fine = error_of(motion, truth, Scheme::p12, 4);
+    CAPTURE(coarse, fine);
+    CHECK(coarse < 0.02);
+    CHECK(order_at(motion, truth, Scheme::p12, 4) > 1.8);
+    CHECK(order_at(motion, truth, Scheme::p34, 4) > 1.8);
+}
 
 // Where a twig is held: in its reach, beside it, three times as far as it reaches, and moved to and fro.
 inline std::vector<Attachment> hands(std::int64_t body, double k, double c) {
@@ -110,15 +165,7 @@ template <class T> void check_grid(Solver solver, bool lanes) {
                 scene.attachments = {hands(11, k, c)[hand]};
                 Held<T> run(tree, scene, lanes, 1.0 / 30, Scheme::p12, solver);
                 CAPTURE(sizeof(T), lanes, k, c, hand);
-                double early = 0, third = 0, last = 0;
-                for (int f = 0; f < 240; ++f) {
-                    run.step();
-                    const double energy = run.kinetic();
-                    REQUIRE(std::isfinite(energy));
-                    if (f < 60) early = std::max(early, energy);
-                    if (f >= 120 && f < 180) third = std::max(third, energy);
-                    if (f >= 180) last = std::max(last, energy);
-                }
+                const auto [early, third, last] = run.energies();
                 CHECK(run.largest_angle() < 3.2);
                 CHECK(last <= 1.05 * third + 5e-5); // [J] it falls by its length for 5e-4
                 if (solver == Solver::coupled) CHECK(last <= 0.05 * early + 5e-5);

@@ -247,4 +247,14 @@ inline void check_targets_agree(const Case& c, double most_in_float) {
     }
 }
 
+// What the steps of both solvers are compared in.
+inline std::vector<Case> first_cases(const Tree& large, const Tree& leafy) {
+    Scene drop;
+    drop.pose = Pose::rest;
+    return {{"rest pose let go", leafy, drop},
+            {"rest pose let go, many leaves", large, drop},
+            {"gusts, leaves and fruit", large, in_wind(gusts())},
+            {"gusts, clumps that face one way more than others", facing(large), in_wind(gusts())}};
+}
+
 } // namespace lanes

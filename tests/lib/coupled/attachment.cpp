@@ -92,27 +92,10 @@ TEST_CASE("Attachments in lanes move a tree as they do one number at a time, in 
     scene.attachments[2].position = {Vec3(0.3, 1.8, 0.1), Vec3(0.5, 1.7, -0.2), Vec3(0.1, 1.5, 0.3)};
     scene.attachments[3].from = 0.3;
     scene.attachments[3].to = 1.2;
-    for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
-        Held<double> plain(tree, scene, false, 1.0 / 120, scheme), lanes(tree, scene, true, 1.0 / 120, scheme);
-        Held<float> single(tree, scene, true, 1.0 / 120, scheme);
-        double moved = 0, off = 0, off_single = 0;
-        for (int f = 0; f < 240; ++f) {
-            plain.step();
-            lanes.step();
-            single.step();
-            for (std::size_t i = 0; i < plain.plan.bodies; ++i) {
-                moved = std::max(moved, (plain.state.x_w[i] - tree.joint_position[i]).norm());
-                off = std::max(off, (plain.state.x_w[i] - lanes.state.x_w[i]).norm());
-                off_single = std::max(off_single, (plain.state.x_w[i] - single.state.x_w[i].cast<double>()).norm());
-            }
-        }
-        CAPTURE(scheme_of(scheme).name);
-        CHECK(moved > 0.1);
-        CHECK(off < 1e-9);
-        CHECK(off_single < 5e-3);
+    check_lanes(tree, scene, [](const Held<double>& plain, const Held<double>& lanes) {
         for (std::size_t k = 0; k < 4; ++k)
             CHECK((plain.held(k).force - lanes.held(k).force).norm() < 1e-6 * (1 + plain.held(k).force.norm()));
-    }
+    });
 }
 
 TEST_CASE("Under a rope a branch comes to rest where its energy is least, and the rope's force is what it says") {
@@ -124,17 +107,7 @@ TEST_CASE("A tree that is held moves as the reference's, and its error falls wit
     motion.scene.gravity = Vec3(0, -9.81, 0);
     motion.scene.attachments = {hold(20, 50, 0.4), hold(12, 400, 2)};
     const Held<double> start(motion.tree, motion.scene, false);
-    const Vec3 a = start.point(0), b = start.point(1);
-    motion.scene.attachments[0].time = {0, 0.4, 0.8, 1};
-    motion.scene.attachments[1].time = {0, 0.5, 1};
-    motion.scene.attachments[0].position = {a, a + Vec3(0.2, 0, 0.1), a + Vec3(0, -0.1, 0.2), a};
-    motion.scene.attachments[1].position = {b, b + Vec3(0, -0.1, 0.1), b};
-    const Track truth = truth_of(motion);
-    const double coarse = error_of(motion, truth, Scheme::p12, 1), fine = error_of(motion, truth, Scheme::p12, 4);
-    CAPTURE(coarse, fine);
-    CHECK(coarse < 0.02);
-    CHECK(order_at(motion, truth, Scheme::p12, 4) > 1.8);
-    CHECK(order_at(motion, truth, Scheme::p34, 4) > 1.8);
+    check_order(motion, start.point(0), start.point(1));
 }
 
 TEST_CASE("A tree and a hand that move together with the ground stay as they are") {

@@ -12,13 +12,7 @@ namespace {
 
 std::vector<Case> cases() {
     const Tree large = firm(grown(600)), leafy = coupled::leafy(1e9, 0.01);
-    std::vector<Case> all;
-    Scene drop;
-    drop.pose = Pose::rest;
-    all.push_back({"rest pose let go", leafy, drop});
-    all.push_back({"rest pose let go, many leaves", large, drop});
-    all.push_back({"gusts, leaves and fruit", large, in_wind(gusts())});
-    all.push_back({"gusts, clumps that face one way more than others", facing(large), in_wind(gusts())});
+    std::vector<Case> all = first_cases(large, leafy);
     Scene pulled;
     pulled.pulls = pulls(20);
     all.push_back({"pulls", large, pulled});

@@ -176,26 +176,7 @@ TEST_CASE("Pulls act in lanes as one number at a time, in both precisions, and t
     Pull jet = pull_on(12, Vec3(3, 1, -4), Vec3(-2, 3, 5)), leaf = pull_on(22, Vec3(0, 1e-3, 0), Vec3(0, 2e-3, 0));
     jet.in_body = leaf.in_body = true;
     scene.pulls = {jet, leaf, pull_on(12, Vec3(1, -8, 0), Vec3(4, 0, 3)), pull_on(20, Vec3(0, 0, 3), Vec3(0, 5, 0))};
-    for (const Scheme scheme : {Scheme::p12, Scheme::p34}) {
-        Held<double> plain(tree, scene, false, 1.0 / 120, scheme), lanes(tree, scene, true, 1.0 / 120, scheme);
-        Held<float> single(tree, scene, true, 1.0 / 120, scheme);
-        double moved = 0, off = 0, off_single = 0;
-        for (int f = 0; f < 240; ++f) {
-            plain.step();
-            lanes.step();
-            single.step();
-            for (std::size_t i = 0; i < plain.plan.bodies; ++i) {
-                const Vec3& x = plain.state.x_w[i];
-                moved = std::max(moved, plain.state.theta[i].norm());
-                off = std::max(off, (x - lanes.state.x_w[i]).norm());
-                off_single = std::max(off_single, (x - single.state.x_w[i].cast<double>()).norm());
-            }
-        }
-        CAPTURE(scheme_of(scheme).name);
-        CHECK(moved > 0.1);
-        CHECK(off < 1e-9);
-        CHECK(off_single < 5e-3);
-    }
+    check_lanes(tree, scene, [](const Held<double>&, const Held<double>&) {});
     const Tree large = make_tree::random_tree(3000, 3);
     Scene many = empty_scene();
     many.wind = wind_preset("breeze");
