@@ -6,6 +6,7 @@
 #include "any_run.h"
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace bough {
 namespace {
@@ -14,16 +15,11 @@ void require_finite(const Vec3& v, const char* name) {
     if (!v.allFinite()) throw SceneError(std::string(name) + ": is not finite, expected three finite numbers");
 }
 
-// But for what may change in a run: the rest is in the tables that a plan was made with.
-bool same_tables(const Wind& a, Wind b) {
-    b.velocity = a.velocity;
-    b.turbulence = a.turbulence;
-    b.gust_factor = a.gust_factor;
-    b.gust_period = a.gust_period;
-    b.seed = a.seed;
-    b.turbulence_ahead = a.turbulence_ahead;
-    b.gust_ahead = a.gust_ahead;
-    return a == b;
+// What may change of a wind in a run: the rest is in the tables that a plan was made with. (Names, to be read or written: copies of a wind would
+// allocate its grid.)
+template <class W> auto changing(W& wind) {
+    return std::tie(wind.velocity, wind.turbulence, wind.gust_factor, wind.gust_period, wind.seed,
+                    wind.turbulence_ahead, wind.gust_ahead);
 }
 
 } // namespace
@@ -192,17 +188,20 @@ void Simulation::set_wind(const Wind& wind) {
         throw SceneError(
             "/wind: the scene began without one; begin with still air, a wind of velocity 0, where it may rise");
     if (const std::optional<Defect> defect = check(wind)) throw SceneError("/" + defect->field + " " + defect->message);
-    if (!same_tables(*own, wind))
-        throw SceneError(
-            "/wind: only its velocity, turbulence, gusts and seed change in a run; all else of it stays as "
-            "the run began");
     if (run_->sleeps() && (wind.turbulence > 0 || wind.gust_factor > 1))
         throw SceneError(
             "/wind: has gusts or turbulence, in which nothing sleeps; expected a steady one, or a run without "
             "SimulationOptions::sleep");
-    Wind next = wind;
-    go_on(*own, time(), next);
-    own = next;
+    Wind before; // of what go_on() reads
+    changing(before) = changing(*own);
+    changing(*own) = changing(wind);
+    if (*own != wind) {
+        changing(*own) = changing(before);
+        throw SceneError(
+            "/wind: only its velocity, turbulence, gusts and seed change in a run; all else of it stays as "
+            "the run began");
+    }
+    go_on(before, time(), *own);
     run_->wake();
 }
 

@@ -90,31 +90,60 @@ TEST_CASE("a wind that is changed blows as one that the run began with, and allo
     const Tree tree = leafy();
     Wind other = *wind_preset("storm");
     other.seed = 9;
-    for (const Method method : {Method::coupled, Method::analytic})
-        for (const Precision precision : {Precision::single, Precision::double_})
-            for (const bool portable : {false, true}) {
-                SimulationOptions o = with(precision, method);
-                o.portable = portable;
-                Scene there = one(tree, "gusty"), here = one(tree);
-                here.wind = other;
-                Simulation changed(there, o), begun(here, o), left(there, o);
-                changed.set_wind(other);
-                const std::uint64_t hash = run(begun, 15);
-                CHECK(run(changed, 15) == hash);
-                CHECK(run(left, 15) != hash);
-                const Wind back = *wind_preset("gusty");
-                const std::size_t before = allocations;
-                changed.set_wind(back);
-                changed.step();
-                const std::size_t after = allocations; // before CHECK, which allocates itself
-                CHECK(after == before);
-            }
+    const auto everywhere = [](Wind wind) { return wind; };
+    const auto in_cells = [](Wind wind) {
+        WindGrid& grid = wind.grid.emplace();
+        grid.x = grid.z = -4;
+        grid.cell = 2;
+        grid.columns = grid.rows = 4;
+        grid.octaves = {3};
+        for (int cell = 1; cell < 16; ++cell) grid.phase.push_back(0.4 * cell);
+        return wind;
+    };
+    const auto turning = [](Wind wind) {
+        wind.swirl.emplace().radius = {0, 1, 3};
+        wind.swirl->angle = {10, 40, 20};
+        return wind;
+    };
+    using Shape = Wind (*)(Wind);
+    const Shape shapes[] = {everywhere, in_cells, turning};
+    for (int k = 0; k < 24; ++k) {
+        CAPTURE(k);
+        const Shape shape = shapes[k / 8];
+        SimulationOptions o =
+            with(k / 4 % 2 ? Precision::single : Precision::double_, k / 2 % 2 ? Method::coupled : Method::analytic);
+        o.portable = k % 2;
+        Scene there = one(tree), here = one(tree);
+        const Wind gusty = shape(*wind_preset("gusty")), storm = shape(other);
+        there.wind = gusty;
+        here.wind = storm;
+        Simulation changed(there, o), begun(here, o), left(there, o);
+        changed.set_wind(storm);
+        const std::uint64_t hash = run(begun, 15);
+        CHECK(run(changed, 15) == hash);
+        CHECK(run(left, 15) != hash);
+        Wind wider = gusty;
+        (wider.swirl ? wider.swirl->period : wider.grid ? wider.grid->frequency : wider.profile) *= 2;
+        CHECK_THROWS_WITH(changed.set_wind(wider), Catch::Contains("all else of it stays as the run began"));
+        CHECK(run_of(changed).scene().wind == storm); // as it was, the numbers ahead too: it was set at time 0
+        const std::size_t before = allocations;
+        changed.set_wind(gusty);
+        changed.step();
+        const std::size_t after = allocations; // before CHECK, which allocates itself
+        CHECK(after == before);
+    }
+    Scene behind = one(tree, "gusty"); // its shelter stays that of the start
+    behind.wind->shelter = WindShelter{2};
+    Simulation sheltered(behind);
+    run(sheltered, 3);
+    behind.wind->velocity = Vec3(2, 0, 3);
+    const std::size_t before = allocations;
+    sheltered.set_wind(*behind.wind);
+    const std::size_t after = allocations;
+    CHECK(after == before);
     Simulation still(one(tree));
     CHECK_THROWS_WITH(still.set_wind(other), Catch::Contains("began without one"));
     Simulation windy(one(tree, "gusty"));
-    Wind gridded = other;
-    gridded.profile = 0.3;
-    CHECK_THROWS_WITH(windy.set_wind(gridded), Catch::Contains("all else of it stays as the run began"));
     other.velocity.x() = NAN;
     CHECK_THROWS_AS(windy.set_wind(other), SceneError);
     CHECK(windy.step().finite());
