@@ -282,56 +282,6 @@ TEST_CASE("a run with attachments that is cut ends as the whole one, bit by bit"
         }
 }
 
-TEST_CASE("steps allocate nothing once they have run") {
-#ifdef BOUGH_SANITIZED
-    return; // nothing is counted
-#endif
-    for (const auto& [method, portable] : {std::pair(Method::coupled, false), std::pair(Method::coupled, true),
-                                           std::pair(Method::analytic, false)}) { // trees that are tied to each other
-        Scene scene = one(make_tree::branched(), "gusty");
-        scene.add(make_tree::branched(), Vec3(2, 0, 0));
-        scene.attachments.resize(8);
-        for (std::size_t k = 0; k < 8; ++k) {
-            Attachment& held = scene.attachments[k];
-            held.on.body = std::int64_t(k);
-            held.with = Selector();
-            held.with->tree = 1;
-            held.with->body = std::int64_t(k);
-            held.stiffness = 100;
-        }
-        SimulationOptions o = with(Precision::double_, method);
-        o.portable = portable;
-        o.threads = 1;
-        Simulation tied(scene, o);
-        tied.step(3);
-        const std::size_t before = allocations;
-        tied.step();
-        const std::size_t after = allocations;
-        CHECK(after == before);
-    }
-    const Tree tree = segment(grow_bodies(default_growth(), 5, {true, false, true}, 6000), wood_presets().front(), {});
-    for (const Precision precision : {Precision::single, Precision::double_}) {
-        SimulationOptions o = with(precision);
-        o.threads = precision == Precision::single ? 3 : 1;
-        o.pulls = o.velocities = true;
-        Simulation simulation(one(tree, "gusty"), o);
-        const auto frame = [&] {
-            simulation.pull(5, Vec3::Zero(), Vec3(0.01, 0, 0));
-            simulation.step();
-            CHECK(simulation.positions().size() == tree.size_bodies());
-        };
-        for (int k = 0; k < 3; ++k) frame();
-        const std::size_t before = allocations;
-        simulation.pull(5, Vec3::Zero(), Vec3(0.01, 0, 0));
-        const StepReport report = simulation.step();
-        const std::size_t shown = simulation.positions().size() + simulation.velocities().size();
-        const std::size_t after = allocations;
-        CHECK(after == before);
-        CHECK(report.finite());
-        CHECK(shown == 2 * tree.size_bodies());
-    }
-}
-
 TEST_CASE("trees that sleep wake with what is changed, and with pulls do not sleep") {
     const Tree tree = make_tree::branched();
     SimulationOptions o;

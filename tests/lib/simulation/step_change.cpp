@@ -1,5 +1,4 @@
 // Simulation::set_step: against runs that began so, and against a run of far finer steps.
-#include "tests/support/count_allocations.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/paper_trees.h"
 #include "tests/support/random_documents.h"
@@ -132,22 +131,6 @@ TEST_CASE("trees that sleep wake where the step changes, and fall asleep again b
     }
     CHECK(awake > 1); // a second of rest, not as many steps as before
     CHECK(awake < 20);
-}
-
-TEST_CASE("changing the step allocates nothing") {
-#ifdef BOUGH_SANITIZED
-    return; // nothing is counted
-#endif
-    for (const bool portable : {false, true}) {
-        Simulation simulation(one(leafy(), "gusty"), in_steps(1 / 30.0, Precision::single, portable));
-        run(simulation, 4);
-        const std::size_t before = allocations;
-        simulation.set_step(1 / 50.0);
-        const bool finite = simulation.step().finite();
-        const std::size_t after = allocations;
-        CHECK(after == before);
-        CHECK(finite);
-    }
 }
 
 TEST_CASE("a step that is none is refused") {
