@@ -4,9 +4,11 @@
 #include "documents/species.h"
 #include "documents/splines.h"
 #include "documents/tree.h"
+#include "lib/base/shortest_text.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/species.h"
 #include "lib/model/wood.h"
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -128,6 +130,8 @@ struct MotionFile::Inside {
 };
 
 MotionFile::MotionFile(const std::string& file, const Simulation& simulation, double fps) {
+    if (!(fps >= 0) || !std::isfinite(fps))
+        throw SceneError("fps: is " + shortest_text(fps) + ", expected frames a second above 0, or 0 for one a step");
     MotionHeader header;
     header.fps = fps > 0 ? fps : 1 / simulation.options().step;
     header.bodies = std::int64_t(simulation.bodies());
@@ -165,6 +169,7 @@ void MotionFile::write(const Simulation& simulation) {
     copy(simulation.torques(), frame.torque);
     copy(simulation.stresses(), frame.stress);
     frame.events = simulation.events();
+    if (const std::string what = beyond_floats(frame); !what.empty()) throw OutputError(inside_->output.name(), what);
     inside_->writer.write(frame);
     ++inside_->written;
 }

@@ -50,11 +50,12 @@ void write_state(const std::string& file, const SavedState&);
 // Writes a run's motion as a bough-motion document: .jsonl, .json or .safetensors.
 class MotionFile {
 public:
-    // Writes no frame yet. fps [1/s]: of the frames that will be written; 0: one a step.
+    // Writes no frame yet. fps [1/s]: of the frames that will be written; 0: one a step. Throws SceneError for an fps below 0 or not finite.
     MotionFile(const std::string& file, const Simulation&, double fps = 0);
     MotionFile(MotionFile&&) noexcept;
     ~MotionFile(); // what is not finished is removed
     // Writes the run's present state as the next frame. Throws SceneError, and writes nothing, for a run of other bodies or fields than the first's.
+    // Throws OutputError, and writes nothing, for a number above 3.4e38, which no float can say: who reads the file may keep floats.
     void write(const Simulation&);
     void finish();
 

@@ -1,11 +1,10 @@
 #include "simulation.h"
 #include "exits.h"
+#include "formats/documents/motion.h"
 #include "formats/open.h"
-#include "lib/base/shortest_text.h"
 #include "lib/simulation/run_choice.h"
 #include "lib/study/timed_steps.h"
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace bough {
@@ -24,24 +23,6 @@ namespace {
     if (run.account().solver == solver_name(Solver::articulated_explicit))
         advice = "; explicit Euler needs far smaller steps (--substeps), or take --solver articulated-implicit";
     throw PromiseError("the simulation became non-finite in frame " + std::to_string(frame) + ": " + place + advice);
-}
-
-// Throws PromiseError for a number that no float, which most outputs hold, can say: written, it would be infinite.
-void require_floats(const MotionFrame& frame) {
-    const auto require = [&](const char* name, std::size_t body, double largest) {
-        if (largest <= double(std::numeric_limits<float>::max())) return;
-        throw PromiseError("frame " + std::to_string(frame.frame) + ": the " + name + " of body " +
-                           std::to_string(body) + " comes to " + four_digits(largest) +
-                           ", expected at most 3.4e38, as a float can say");
-    };
-    for (const auto& [name, values] : {std::pair("position", &frame.position),
-                                       {"velocity", &frame.velocity},
-                                       {"angular velocity", &frame.angular_velocity},
-                                       {"torque", &frame.torque},
-                                       {"theta", &frame.theta},
-                                       {"theta_dot", &frame.theta_dot}})
-        for (std::size_t i = 0; i < values->size(); ++i) require(name, i, (*values)[i].cwiseAbs().maxCoeff());
-    for (std::size_t i = 0; i < frame.stress.size(); ++i) require("stress", i, std::abs(frame.stress[i]));
 }
 
 } // namespace
@@ -84,7 +65,7 @@ void fill_frame(Simulation& simulation, std::int64_t frame, double fps, const Mo
     out.time = double(frame) / fps;
     if (const std::string place = simulation.fill(fields, out); !place.empty())
         fail_non_finite(simulation, frame, place);
-    require_floats(out);
+    if (const std::string what = beyond_floats(out); !what.empty()) throw PromiseError(what);
 }
 
 } // namespace bough

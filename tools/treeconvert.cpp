@@ -197,6 +197,14 @@ void list_materials(const std::string& file) {
     output.finish();
 }
 
+// What segment() refuses, told of the option that asked for it. Without a name it is that there are too many bodies.
+std::string of_option(std::string_view what) {
+    using Names = std::pair<std::string_view, const char*>;
+    for (const auto& [field, option] : {Names{"max_bodies: ", "--max-bodies: "}, Names{"max_bend: ", "--max-bend: "}})
+        if (what.starts_with(field)) return option + std::string(what.substr(field.size()));
+    return "--segment-length: " + std::string(what);
+}
+
 SegmentOptions segment_options(const Options& o) {
     SegmentOptions options;
     if (o.segment_length) options.segment_length = *o.segment_length;
@@ -350,10 +358,9 @@ void work(Options& o) {
     try {
         tree = segment(splines, material, segment_options(o), &report);
     } catch (const std::invalid_argument& error) {
-        const std::string what = error.what(), most = "max_bodies: ";
-        if (what.starts_with("bodies: ")) throw InputError(name, "/" + what);
-        throw UsageError(what.starts_with(most) ? "--max-bodies: " + what.substr(most.size())
-                                                : "--segment-length: " + what);
+        const std::string_view what = error.what();
+        if (what.starts_with("bodies: ")) throw InputError(name, "/" + std::string(what));
+        throw UsageError(of_option(what));
     } catch (const std::bad_alloc&) {
         throw InputError(name,
                          "out of memory while bodies were made of its " + counted(splines.points(), "point", "points"));

@@ -2,7 +2,6 @@
 #include "formats/documents/tree.h"
 #include "formats/files.h"
 #include "handle.h"
-#include "lib/base/shortest_text.h"
 #include "write.h"
 
 using namespace bough;
@@ -27,13 +26,6 @@ const Material& wood_of(const Splines& splines, const char* asked) {
 }
 
 SegmentOptions options_of(const bough_conversion& c) {
-    const auto at_least = [](const char* field, double value, double low, const char* expected) {
-        if (!(value >= low) || !std::isfinite(value))
-            throw WrongCall(std::string(field) + ": is " + shortest_text(value) + ", expected " + expected);
-    };
-    at_least("segment_length", c.segment_length, 0, "metres, 0 or more");
-    at_least("max_bend", c.max_bend, 1e-3, "radians, 0.001 or more");
-    at_least("max_bodies", double(c.max_bodies), 0, "0 or more");
     SegmentOptions options;
     options.segment_length = c.segment_length;
     options.max_bend = c.max_bend;

@@ -23,6 +23,10 @@ constexpr MotionFields no_fields{false, false, false, false, false};
 bool MotionFields::*field_of(const std::string& word);
 extern const char* const field_words_text;
 
+// Names the first number of a frame that no float can say, "frame 3: the position of body 7 comes to ..."; "" where there is none. Most outputs hold
+// floats, and what reads a motion may: there it would be infinite. O(bodies).
+std::string beyond_floats(const MotionFrame&);
+
 enum class MotionForm { jsonl, json, safetensors };
 
 // Writes a motion frame by frame. JSON and JSON lines stream; safetensors keeps its arrays in temporary files until

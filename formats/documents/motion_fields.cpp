@@ -1,4 +1,7 @@
 #include "motion_fields.h"
+#include "lib/base/shortest_text.h"
+#include <cmath>
+#include <limits>
 
 namespace bough {
 
@@ -18,6 +21,26 @@ bool MotionFields::*field_of(const std::string& word) {
     for (const FieldWord& known : field_words)
         if (word == known.word) return known.field;
     return nullptr;
+}
+
+std::string beyond_floats(const MotionFrame& frame) {
+    const auto text = [&](const char* name, std::size_t body, double largest) {
+        return "frame " + std::to_string(frame.frame) + ": the " + name + " of body " + std::to_string(body) +
+               " comes to " + four_digits(largest) + ", expected at most 3.4e38, as a float can say";
+    };
+    constexpr auto most = double(std::numeric_limits<float>::max());
+    for (const auto& [name, values] : {std::pair("position", &frame.position),
+                                       {"velocity", &frame.velocity},
+                                       {"angular velocity", &frame.angular_velocity},
+                                       {"torque", &frame.torque},
+                                       {"theta", &frame.theta},
+                                       {"theta_dot", &frame.theta_dot}})
+        for (std::size_t i = 0; i < values->size(); ++i)
+            if (const double largest = (*values)[i].cwiseAbs().maxCoeff(); largest > most)
+                return text(name, i, largest);
+    for (std::size_t i = 0; i < frame.stress.size(); ++i)
+        if (const double value = std::abs(frame.stress[i]); value > most) return text("stress", i, value);
+    return "";
 }
 
 std::vector<std::string> words_of(const MotionFields& fields) {

@@ -1,4 +1,5 @@
 #include "segment.h"
+#include "../base/shortest_text.h"
 #include "../model/stiffness.h"
 #include "bodies.h"
 #include "cut.h"
@@ -19,6 +20,17 @@ void refuse_more_than_an_index_holds(std::int64_t pieces, std::int64_t room) {
     if (pieces > room)
         throw std::invalid_argument("more than " + std::to_string(most_bodies) +
                                     " bodies: the segment length is too small for a tree of this size");
+}
+
+void check(const SegmentOptions& o) {
+    const auto require = [](bool good, const char* field, double value, const char* expected) {
+        if (!good || !std::isfinite(value))
+            throw std::invalid_argument(std::string(field) + ": is " + shortest_text(value) + ", expected " + expected);
+    };
+    require(o.segment_length >= 0, "segment_length", o.segment_length, "metres, 0 or more");
+    require(o.max_bend > 0, "max_bend", o.max_bend, "radians, more than 0");
+    require(o.max_bodies >= 0, "max_bodies", double(o.max_bodies), "0 or more");
+    require(o.merge >= 0, "merge", o.merge, "a share of the tree's extent, 0 or more");
 }
 
 std::int64_t growing_bodies(const Splines& splines) {
@@ -98,6 +110,7 @@ std::int64_t most_of_the_least(const Splines& s) {
 } // namespace
 
 std::int64_t count_bodies(const Splines& splines, const SegmentOptions& options) {
+    check(options);
     const Curves curves = make_curves(splines, options.merge);
     const std::int64_t others = growing_bodies(splines), room = most_bodies - others;
     const std::int64_t pieces = count_pieces(curves, rule_for(curves, splines, options), room);
@@ -116,6 +129,7 @@ void ask_for_bodies(Splines& splines, std::int64_t bodies) {
 }
 
 Tree segment(const Splines& splines, const Material& material, const SegmentOptions& options, SegmentReport* report) {
+    check(options);
     const Curves curves = make_curves(splines, options.merge);
     Tree tree = whole_tree(splines, curves, material, options);
     const std::int64_t budget = budget_of(splines, options).bodies;

@@ -13,8 +13,8 @@
 // Order. Bodies stand branch by branch, a branch's pieces in order, parents before children. Leaves and fruit follow all branches.
 // A branch without length is left out and counted (curves.h). cut.h has the exact rules of cutting.
 // Cost O(points + bodies) of the whole tree; with a budget some eighty times that.
-// Throws std::invalid_argument where max_bodies is less than the least number possible (and says which that is), or where there are more bodies than
-// an index holds.
+// Throws std::invalid_argument ("segment_length: is nan, expected ...") for options out of their ranges, where max_bodies is less than the least
+// number possible (and says which that is), and where there are more bodies than an index holds.
 #pragma once
 #include "../model/splines.h"
 #include "../model/tree.h"
@@ -24,10 +24,11 @@
 namespace bough {
 
 struct SegmentOptions {
-    double segment_length = 0;   // [m] longest piece; 0: by the default rule, which depends on the splines alone
-    double max_bend = 0.35;      // [rad] largest turning of the curve within one piece
-    std::int64_t max_bodies = 0; // 0: as the splines say, or as many as come
-    double merge = 1e-6;         // points nearer than this times the tree's extent are one
+    double segment_length =
+        0;                  // [m] longest piece, 0 or more; 0: by the default rule, which depends on the splines alone
+    double max_bend = 0.35; // [rad] largest turning of the curve within one piece, above 0
+    std::int64_t max_bodies = 0; // 0 or more; 0: as the splines say, or as many as come
+    double merge = 1e-6;         // 0 or more: points nearer than this times the tree's extent are one
 };
 
 struct SegmentReport {
@@ -38,7 +39,7 @@ struct SegmentReport {
     double segment_length = 0;         // [m] longest piece, as used
 };
 
-// Returns how many bodies segment() would make. O(points), with a budget as segment().
+// Returns how many bodies segment() would make; throws as it does. O(points), with a budget as segment().
 std::int64_t count_bodies(const Splines&, const SegmentOptions&);
 
 // Has segment() make so many bodies of the splines, within a tenth from 100 on (Splines::bodies). Throws std::invalid_argument ("bodies: is ...") for

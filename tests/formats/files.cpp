@@ -77,6 +77,53 @@ TEST_CASE("a scene that a program made moves as before, once written and read ag
     }
 }
 
+TEST_CASE("a motion file's rate is a number above 0, or 0 for that of the steps") {
+    const Folder folder;
+    Simulation simulation(one(make_tree::branched()));
+    const std::string file = folder / "motion.json";
+    for (const double fps : {-1.0, double(NAN), double(INFINITY), -double(INFINITY)}) {
+        CHECK_THROWS_AS(MotionFile(file, simulation, fps), SceneError);
+        CHECK_THROWS_WITH(MotionFile(file, simulation, fps),
+                          Catch::StartsWith("fps: is ") &&
+                              Catch::EndsWith("expected frames a second above 0, or 0 for one a step"));
+    }
+    MotionFile motion(file, simulation, 7.5);
+    motion.write(simulation);
+    motion.write(simulation);
+    motion.finish();
+    const Motion read = read_motion(read_input(file), file);
+    CHECK(read.header.fps == 7.5);
+    CHECK(read.frame[1].time == 1 / 7.5);
+}
+
+TEST_CASE("a motion file does not take what no float can say, as treesim does not") {
+    const Folder folder;
+    Scene scene = one(make_tree::branched()); // and a ball that flies away, in steps of aeons
+    scene.gravity.setZero();
+    Ball& ball = scene.balls.emplace_back();
+    ball.position = Vec3(9, 9, 0);
+    ball.velocity = Vec3(0, 1e15, 0);
+    ball.radius = 0.1;
+    ball.mass = 1;
+    SimulationOptions o;
+    o.step = 1e25;
+    Simulation simulation(scene, o);
+    const std::size_t body = simulation.bodies() - 1;
+    const std::string file = folder / "motion.json";
+    MotionFile motion(file, simulation, 30);
+    motion.write(simulation);
+    const Simulation begun = simulation.copy();
+    REQUIRE(simulation.step().finite());
+    REQUIRE(simulation.positions()[body].y() > 1e39);
+    CHECK_THROWS_AS(motion.write(simulation), OutputError);
+    CHECK_THROWS_WITH(motion.write(simulation),
+                      Catch::StartsWith(file + ": frame 1: the position of body 14 comes to ") &&
+                          Catch::EndsWith("expected at most 3.4e38, as a float can say"));
+    motion.write(begun); // what was refused is not there
+    motion.finish();
+    CHECK(read_motion(read_input(file), file).frame.size() == 2);
+}
+
 TEST_CASE("splines that a program made and that hold no tree are refused before they are cut") {
     const Splines good = grow("apple", {.bodies = 60});
     CHECK(convert(good).size_bodies() > 0);

@@ -148,3 +148,25 @@ TEST_CASE("no branches give an empty tree") {
     CHECK(segment(s, wood(), {}).size_bodies() == 0);
     CHECK(count_bodies(s, {}) == 0);
 }
+
+TEST_CASE("lengths, turns and numbers that are none are refused, by name") {
+    const Splines s = small_tree();
+    const auto refusal = [&](const SegmentOptions& o) {
+        CHECK_THROWS_AS(count_bodies(s, o), std::invalid_argument);
+        try {
+            segment(s, wood(), o);
+        } catch (const std::invalid_argument& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(refusal({.segment_length = NAN}) == "segment_length: is nan, expected metres, 0 or more");
+    CHECK(refusal({.segment_length = -1}) == "segment_length: is -1, expected metres, 0 or more");
+    CHECK(refusal({.segment_length = INFINITY}) == "segment_length: is inf, expected metres, 0 or more");
+    for (const double bend : {0.0, -0.2, double(NAN), double(INFINITY)})
+        CHECK_THAT(refusal({.max_bend = bend}), Catch::Matchers::StartsWith("max_bend: is ") &&
+                                                    Catch::Matchers::EndsWith("expected radians, more than 0"));
+    CHECK(refusal({.max_bodies = -3}) == "max_bodies: is -3, expected 0 or more");
+    for (const double merge : {-1e-6, double(NAN), double(INFINITY)})
+        CHECK_THAT(refusal({.merge = merge}), Catch::Matchers::StartsWith("merge: is "));
+}
