@@ -1,4 +1,5 @@
 #include "loop.h"
+#include "../base/shortest_text.h"
 #include "../model/tips.h"
 #include "any_run.h"
 #include <algorithm>
@@ -39,9 +40,29 @@ std::vector<Quat> in_parents(const Tree& tree, std::span<const Quat> world) {
     return own;
 }
 
+constexpr std::int64_t most_frames = 1'000'000'000, most_of_periods = 1'000'000; // whose product can be counted
+
+void require_frames(std::int64_t frames, const char* call) {
+    if (frames < 2 || frames > most_frames)
+        throw SceneError(std::string(call) + ": frames is " + std::to_string(frames) + ", expected 2 to " +
+                         std::to_string(most_frames));
+}
+
+void check(const LoopOptions& o) {
+    require_frames(o.frames, "close_loop");
+    if (!(o.tolerance > 0) || !std::isfinite(o.tolerance))
+        throw SceneError("close_loop: tolerance is " + shortest_text(o.tolerance) +
+                         ", expected a share of the height above 0");
+    if (o.periods && (*o.periods < 2 || *o.periods > most_of_periods))
+        throw SceneError("close_loop: periods is " + std::to_string(*o.periods) + ", expected 2 to " +
+                         std::to_string(most_of_periods) + ", as each is compared with the one before");
+}
+
 } // namespace
 
 void make_periodic(double seconds, Scene& scene) {
+    if (!(seconds > 0) || !std::isfinite(seconds))
+        throw SceneError("the loop is " + shortest_text(seconds) + " s, expected more than 0");
     const std::pair<bool, const char*> passing[] = {{!scene.pulls.empty(), "/pulls"},
                                                     {!scene.attachments.empty(), "/attachments"},
                                                     {!scene.root_motion.empty(), "/root_motion"},
@@ -68,6 +89,7 @@ std::int64_t most_periods(const LoopOptions& o) {
 }
 
 LoopStart close_loop(Simulation& simulation, const LoopOptions& o, const ToFrame& to) {
+    check(o);
     AnyRun& run = run_of(simulation);
     const Tree& tree = run.assembly().tree; // of what moves
     const std::int64_t n = o.frames, most = most_periods(o);
@@ -106,7 +128,9 @@ LoopGap loop_seam(Simulation& simulation, const LoopStart& start) {
 }
 
 LoopBlend::LoopBlend(Simulation before, std::int64_t frames, ToFrame to)
-    : before_(std::move(before)), frames_(frames), to_(std::move(to)) {}
+    : before_(std::move(before)), frames_(frames), to_(std::move(to)) {
+    require_frames(frames, "LoopBlend");
+}
 
 void LoopBlend::blend(MotionFrame& frame) {
     if (made_ > 0) to_(before_, made_ + 1);

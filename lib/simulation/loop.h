@@ -17,14 +17,14 @@
 
 namespace bough {
 
-// Gives the wind this period [s]. Throws SceneError for a scene without wind, with a wind of another period, or with something whose times do not
-// repeat.
+// Gives the wind this period [s], above 0. Throws SceneError for another number, and for a scene without wind, with a wind of another period, or with
+// something whose times do not repeat.
 void make_periodic(double seconds, Scene&);
 
 struct LoopOptions {
-    std::int64_t frames = 0;             // of a period, 2 and more
-    double tolerance = 1e-4;             // [1] of the height
-    std::optional<std::int64_t> periods; // at most, before the one that is shown
+    std::int64_t frames = 0;             // of a period, 2 to 1e9
+    double tolerance = 1e-4;             // [1] of the height, above 0
+    std::optional<std::int64_t> periods; // at most, before the one that is shown: 2, which are compared, to 1e6
     bool blend = false;
 };
 // LoopOptions::periods, or 20 if not given; 5 where ends are blended, since there they only let the run forget its start.
@@ -51,7 +51,7 @@ struct LoopStart {
     std::optional<Simulation> before; // where ends are blended: the run where that begins, a period before
 };
 
-// Runs from the start to the loop's first frame. Throws what `to` throws.
+// Runs from the start to the loop's first frame. Throws SceneError for options out of their ranges, before any step, and what `to` throws.
 LoopStart close_loop(Simulation&, const LoopOptions&, const ToFrame& to);
 
 // Takes a run that is one frame behind the loop's last.
@@ -65,7 +65,7 @@ constexpr std::int64_t blended_frames(std::int64_t frames) {
 // Blends a loop's frames so that its ends meet, one after another from the first that is blended.
 class LoopBlend {
 public:
-    // before: LoopStart's.
+    // before: LoopStart's; frames: those of its loop. Throws SceneError for less than 2.
     LoopBlend(Simulation before, std::int64_t frames, ToFrame to);
     // frame: with positions and rotations, which are changed.
     void blend(MotionFrame& frame);
