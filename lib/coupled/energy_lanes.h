@@ -1,5 +1,5 @@
 // energy_lanes.h: the energy guard (coupled/energy_guard.h) on rows of lanes. It is written a second time because it weighs rows and not arrays of
-// bodies. tests/lib/coupled/lanes.cpp holds the two together.
+// bodies. tests/lib/coupled/energy_guard.cpp holds the two together.
 #pragma once
 #include "coupled_lanes_state.h"
 #include "coupled_rows.h"

@@ -2,7 +2,7 @@
 // energies, from the motion at its start and at its end, which are both still there.
 //
 // It is written a second time because lanes keep no poses: the plain guard reads those of the start and the end from arrays, once before the step is
-// taken and once after. tests/lib/coupled/lanes.cpp holds the two together.
+// taken and once after. tests/lib/coupled/energy_guard.cpp holds the two together.
 // Three poses go outward side by side: the start's and the end's, as seen from the ground, and with wind that of y*, in which the step took the air's
 // force. Sums go over a lane's chain, in its order. The caller adds them up by trees, group by group. The cost is up to that of the outward
 // sweep, and only arises in steps in which something turned fast.

@@ -72,4 +72,18 @@ inline Tree hinged_rod(double length = 2, double radius = 0.025) {
     return tree;
 }
 
+// Wind that shakes leaves and fruit off, balls, everything that may be free.
+inline Scene lively() {
+    Scene scene;
+    scene.pose = Pose::rest;
+    scene.wind = *wind_preset("storm");
+    scene.fracture = Fracture();
+    scene.fracture->leaf = 2e-5;
+    scene.fracture->fruit = 0.05;
+    scene.fracture->spread = 0.5;
+    scene.fracture->joints = {{{Selector::By::body, 0, 9, {}}, 1e-3}};
+    scene.balls = {ball(Vec3(0.1, 2.4, 0), Vec3(0, -4, 0), 0.1, 0.5), ball(Vec3(-0.3, 3, 0), Vec3(0, 0, 0), 0.05, 0.3)};
+    return scene;
+}
+
 } // namespace free_bodies

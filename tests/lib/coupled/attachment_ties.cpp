@@ -1,5 +1,5 @@
 // Attachments between two bodies (attachment_ties.h): against the reference and statics, in lanes, of any stiffness, over threads and scenes.
-// (One step against dense algebra, pairs among it: step.cpp.)
+// (One step against dense algebra, pairs among it: coupled_step.cpp.)
 #include "lib/coupled/attachment_ties.h"
 #include "lib/base/parallel.h"
 #include "lib/coupled/coupled_rows.h"

@@ -123,20 +123,6 @@ TEST_CASE("what is too much for the caches and goes past them comes back the sam
     }
 }
 
-TEST_CASE("the energy guard takes in lanes what it takes on the plain path") {
-    for (const bool windy : {false, true}) {
-        Case c{"", grown(600), solver::empty_scene(), 0.05, 5};
-        if (windy) c.scene.wind = gusts();
-        LanesRun<> plain(c, std::nullopt), lanes(c, fast::best_target());
-        const Apart d = run_apart(plain, lanes, 5);
-        CAPTURE(windy);
-        REQUIRE(plain.state.flags.energy_guard > 0);
-        CHECK(lanes.state.flags.energy_guard == plain.state.flags.energy_guard);
-        CHECK(d.theta < 1e-9); // measured: 5e-11, which fast turning multiplies from step to step
-        CHECK(d.theta_dot < 1e-7);
-    }
-}
-
 TEST_CASE("float lanes stay as near to double as the plain step's float does") {
     for (const Case& c : cases())
         if (c.tree.size_bodies() <= 1000) check_float_drift(c, 300);

@@ -1,5 +1,5 @@
 // Pulls whose points and forces turn with their bodies (pulled_points.h): against closed forms, the reference, in lanes. (One step against dense
-// algebra: step.cpp.)
+// algebra: coupled_step.cpp.)
 #include "lib/coupled/pulled_points.h"
 #include "formats/files.h"
 #include "lib/analytic/analytic_stepper.h"
