@@ -41,8 +41,8 @@ Scene read_scene(const std::string& file);
 void write_splines(const std::string& file, const Splines&);
 void write_tree(const std::string& file, const Tree&);
 // Writes a scene as a bough-scene document. Its trees stand there by name: give each place the name of a file (Placement::file, relative to the
-// document's folder), and write the tree there by write_tree. A tree that read_scene has changed by the document's /material is written as changed, and
-// the scene without /material. Throws OutputError for a place without a file.
+// document's folder), and write the tree there by write_tree. A tree that read_scene has changed by the document's /material is written as changed,
+// and the scene without /material. Throws OutputError for a place without a file.
 void write_scene(const std::string& file, const Scene&);
 SavedState read_state(const std::string& file); // as `treesim --save-state` and write_state write it
 void write_state(const std::string& file, const SavedState&);

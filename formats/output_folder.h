@@ -7,8 +7,8 @@ namespace bough {
 
 class TemporaryFolder;
 
-// A folder that is not there yet appears whole, under its name, or not at all (temporary.h). In one that is there each file appears whole, once all are
-// written, in the order in which they were added; what else is in it stays. All but the destructor throw OutputError.
+// A folder that is not there yet appears whole, under its name, or not at all (temporary.h). In one that is there each file appears whole, once all
+// are written, in the order in which they were added; what else is in it stays. All but the destructor throw OutputError.
 class OutputFolder {
 public:
     explicit OutputFolder(const std::string& path); // with or without a slash behind

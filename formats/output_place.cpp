@@ -88,8 +88,8 @@ bool same_output(const OutputPlace& one, const OutputPlace& other) {
 
 namespace {
 
-// 0, or why the system will not put another file in its place though the folder may be written to: EBUSY where something is mounted on it, EPERM where
-// it is another user's in a folder whose files are their owners' alone (/tmp).
+// 0, or why the system will not put another file in its place though the folder may be written to: EBUSY where something is mounted on it, EPERM
+// where it is another user's in a folder whose files are their owners' alone (/tmp).
 int kept_by_system([[maybe_unused]] const OutputPlace& place) {
 #ifdef __linux__
     const std::string folder = folder_of_place(place.path);

@@ -52,7 +52,8 @@ void release_unfinished(void* entry) {
     if (entry) std::free(static_cast<Unfinished*>(entry)->path.exchange(nullptr));
 }
 
-// While a name comes to be: it is registered before it exists, and remove_unfinished_outputs() waits for those of other threads, so that it finds all.
+// While a name comes to be: it is registered before it exists, and remove_unfinished_outputs() waits for those of other threads, so that it finds
+// all.
 // Once that has begun, no name comes to be any more: the process is about to end.
 std::atomic<bool> ending{false};
 std::atomic<int> naming{0};

@@ -48,8 +48,8 @@ private:
     void* registered_ = nullptr;
 };
 
-// Removes the temporary files and folders of this process that have names, and lets no more come to be: a thread that begins one waits for ever. For a
-// signal handler that is about to end the process (async-signal-safe); everywhere else the destructors do it.
+// Removes the temporary files and folders of this process that have names, and lets no more come to be: a thread that begins one waits for ever. For
+// a signal handler that is about to end the process (async-signal-safe); everywhere else the destructors do it.
 void remove_unfinished_outputs() noexcept;
 
 } // namespace bough

@@ -31,7 +31,8 @@ struct VatFrames {
 std::unique_ptr<FrameSink> vat_sink(const std::string& folder, const Tree&, MovedMesh, const VatFrames&,
                                     const VatChoice&, const std::string& source, std::vector<std::string>& notes);
 
-// One .usda, written by finish(), and its images in a folder beside it. name: the tree's. Throws UsageError for images beside stdout, and for one that would replace a file of `read`.
+// One .usda, written by finish(), and its images in a folder beside it. name: the tree's. Throws UsageError for images beside stdout, and for one
+// that would replace a file of `read`.
 std::unique_ptr<FrameSink> usda_sink(const std::string& file, const std::string& name, RiggedMesh, double fps,
                                      const std::string& source, const std::vector<NamedFile>& read);
 

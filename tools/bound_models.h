@@ -19,8 +19,9 @@ struct OtherTrees {
     std::vector<TreeLook> looks; // of each tree of the scene; none: all look as `shown` does
 };
 
-// Each tree shows its file's mesh where the scene puts it. To what is none of theirs (other trees, balls) `made` gives meshes, to trees that look alike
-// together. Trees of one file share materials, images and shapes. shown: all of the run's trees, and balls behind them. O(vertices, times pieces of a branch).
+// Each tree shows its file's mesh where the scene puts it. To what is none of theirs (other trees, balls) `made` gives meshes, to trees that look
+// alike together. Trees of one file share materials, images and shapes. shown: all of the run's trees, and balls behind them. O(vertices, times
+// pieces of a branch).
 // Throws as bound_to does.
 OwnMesh bound_mesh(std::vector<FileModel>, const Tree& shown, const Setting&, const OtherTrees&,
                    const std::function<OwnMesh(const Tree&)>& made, std::vector<std::string>& notes);

@@ -26,8 +26,8 @@ inline bool has_textures(const std::string& format) {
 }
 void add_dress_options(OptionList&, DressChoice&);
 
-// Throws UsageError where an option is given for a mesh of that format (glb, usda, vat, obj, mdd, pc2) that cannot have it, or for none. plain: an option that asks for
-// leaves as they are without species, by name; null: none.
+// Throws UsageError where an option is given for a mesh of that format (glb, usda, vat, obj, mdd, pc2) that cannot have it, or for none. plain: an
+// option that asks for leaves as they are without species, by name; null: none.
 void refuse_contradictions(const DressChoice&, const std::string& format, bool mesh, const char* plain);
 
 // Whether `dressed` gives any tree of that format leaves or textures.
@@ -37,8 +37,8 @@ std::string look_file(const DressChoice&);
 // Whether a tree's look is known: by its name, or by --look. Throws as `dressed` does.
 bool has_look(const std::string& name, const DressChoice&);
 
-// The tree as its species looks; nothing where it has none, or where leaves are kites and nothing is textured. Throws UsageError for a species that is
-// not known, InputError for a document that is wrong.
+// The tree as its species looks; nothing where it has none, or where leaves are kites and nothing is textured. Throws UsageError for a species that
+// is not known, InputError for a document that is wrong.
 std::optional<OwnMesh> dressed(const Tree&, std::optional<int> sides, const DressChoice&, const std::string& format,
                                const char* plain);
 

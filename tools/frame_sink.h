@@ -31,8 +31,8 @@ struct MovedMesh; // skin_mover.h
 // What makes the leaves of a skin's clumps rustle, nothing where they do not; `together` as in rustle.h. Called once, when a sink is made.
 using RustleMaker = std::function<std::unique_ptr<Rustle>(const Skin&, bool together)>;
 
-// One OBJ a frame, each whole or absent, and one mtl with the mesh's images. Throws UsageError where an image would replace a file of `read`. Keeps a reference to the notes, which name what an earlier, longer run
-// has left behind the last frame.
+// One OBJ a frame, each whole or absent, and one mtl with the mesh's images. Throws UsageError where an image would replace a file of `read`. Keeps a
+// reference to the notes, which name what an earlier, longer run has left behind the last frame.
 std::unique_ptr<FrameSink> obj_sink(const std::string& pattern, MovedMesh, const std::vector<NamedFile>& read,
                                     std::vector<std::string>& notes);
 

@@ -10,8 +10,8 @@ namespace bough {
 // guessed, repaired or left out. Metres and Y up, of the splines as they are now. O(points).
 std::string import_statistics(const Splines&, const ImportNotes&);
 
-// How a tree sways, as it stands drawn under its weight: the first bending mode along x and z, the lowest mode, and which branch buckles (study/modes.h);
-// "none: ..." where it cannot stand.
+// How a tree sways, as it stands drawn under its weight: the first bending mode along x and z, the lowest mode, and which branch buckles
+// (study/modes.h); "none: ..." where it cannot stand.
 std::string sway_text(const Tree&);
 
 } // namespace bough

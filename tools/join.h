@@ -1,7 +1,8 @@
 // join.h: treesim join: the parts that --shard made, put together into what the whole scene gives.
 //
 // Motions become one motion, frame by frame, so that no more than a frame of each (of JSON: the whole part) is in memory; in each, bodies
-// stand in the scene's order. Saved states become the hash of the whole run. The parts may come in any order; all of them must be there, and belong together.
+// stand in the scene's order. Saved states become the hash of the whole run. The parts may come in any order; all of them must be there, and belong
+// together.
 #pragma once
 #include "common.h"
 

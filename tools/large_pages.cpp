@@ -1,6 +1,6 @@
-// large_pages.cpp: the tools' large arrays come in pages of 2 MB where the system has them. A program of a million bodies spends more time on asking for
-// pages of 4 KB than on its work: treesim took 0.8 s to its first frame with those and 0.57 s with these. It is the programs' matter, not the library's:
-// a library does not replace its user's `operator new`. The address and thread sanitizers keep their own.
+// large_pages.cpp: the tools' large arrays come in pages of 2 MB where the system has them. A program of a million bodies spends more time on asking
+// for pages of 4 KB than on its work: treesim took 0.8 s to its first frame with those and 0.57 s with these. It is the programs' matter, not the
+// library's: a library does not replace its user's `operator new`. The address and thread sanitizers keep their own.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) // GCC's names
 #define BOUGH_OWN_ALLOCATOR
 #elif defined(__has_feature) // clang's

@@ -1,4 +1,5 @@
-// merge_trial.h: treeconvert's trial runs, and what --merge-below makes of one: joints that a trial run finds to hardly move are made rigid (lib/study/merge_below.h).
+// merge_trial.h: treeconvert's trial runs, and what --merge-below makes of one: joints that a trial run finds to hardly move are made rigid
+// (lib/study/merge_below.h).
 #pragma once
 #include "common.h"
 #include "lib/model/tree.h"

@@ -1,4 +1,5 @@
-// placed_models.h: a scene's trees that show skinned models, each its file's, moved by the model's bones; beside them what the scene's other trees show.
+// placed_models.h: a scene's trees that show skinned models, each its file's, moved by the model's bones; beside them what the scene's other trees
+// show.
 #pragma once
 #include "baked_sinks.h"
 #include "bound_models.h"
@@ -54,7 +55,8 @@ MovedMesh moved(std::vector<PlacedMesh>, OtherMesh, const Tree& shown);
 RiggedMesh rigged(const std::vector<PlacedMesh>&, OtherMesh, const Tree& shown, const GltfChoice&,
                   std::vector<std::string>& notes);
 
-// One .glb: the models with nodes, skins and materials of their own, behind what the others show. bodies: of each forest's trees. Keeps a reference to the notes.
+// One .glb: the models with nodes, skins and materials of their own, behind what the others show. bodies: of each forest's trees. Keeps a reference
+// to the notes.
 struct PlacedForest {
     DrivenForest forest;
     std::vector<Bodies> bodies;

@@ -29,8 +29,8 @@ struct ScalingChoice {
 // Enough for a time that a clock tells well: 4 million bodies' steps, at least 4 and at most 240.
 std::int64_t scaling_frames(std::int64_t bodies);
 
-// tick(done, total) before each run; may throw to end. Throws what plan_run throws; PromiseError for a state that became non-finite, and where two runs of
-// the same, or of other threads, give another hash.
+// tick(done, total) before each run; may throw to end. Throws what plan_run throws; PromiseError for a state that became non-finite, and where two
+// runs of the same, or of other threads, give another hash.
 ScalingReport measure_scaling(const std::vector<ScalingTree>&, const ScalingChoice&,
                               const std::function<void(std::int64_t, std::int64_t)>& tick);
 

@@ -16,8 +16,8 @@ struct Setting : Assembly {
     std::vector<TreeLook> looks{};         // of a scene: of each of its trees
     std::optional<ImportNotes> imported{}; // what was found of INPUT, where it was converted
 };
-// Reads a tree of any kind (converted.h), or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (assembly.h). Throws UsageError,
-// InputError.
+// Reads a tree of any kind (converted.h), or a scene and its trees; /wood and /load are put into the tree, rigid parts joined (assembly.h). Throws
+// UsageError, InputError.
 Setting read_setting(const RunOptions&);
 
 // change_wood and join_rigid, whose errors become the input's.
@@ -26,8 +26,8 @@ void apply_scene(Setting&, const std::string& input);
 // The files that read_setting reads: INPUT, the trees of a scene, each once, the wind's. Throws as it does where the scene cannot be read.
 std::vector<std::string> files_read(const RunOptions&);
 
-// Throws UsageError where an output is a file that a tree of the scene was read from, or that a model names. What the options name is compared before anything
-// is read (refuse_overwriting).
+// Throws UsageError where an output is a file that a tree of the scene was read from, or that a model names. What the options name is compared before
+// anything is read (refuse_overwriting).
 void refuse_overwriting_trees(const Setting&, const std::vector<NamedFile>& written);
 
 // What the options make of an empty scene, without trees. Throws UsageError, InputError.

@@ -110,7 +110,8 @@ bool looks_differ(const TreesimOptions& o, const Setting& setting, const std::st
            one_is_known(looks, o.dress);
 }
 
-// Of a scene some of whose files are skinned models. Null where none of them can be moved by its tree: notes say so, and the others remain to be shown.
+// Of a scene some of whose files are skinned models. Null where none of them can be moved by its tree: notes say so, and the others remain to be
+// shown.
 std::unique_ptr<FrameSink> placed(TreesimOptions& o, const Setting& setting, const Tree& shown,
                                   const std::string& format, const CacheFrames& cached, ShownModel& model) {
     if (model.skinned.empty()) return nullptr;

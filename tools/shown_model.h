@@ -17,8 +17,8 @@ struct ShownModel {
 // Notes go to o.common. Throws InputError for --skin.
 ShownModel model_before_threads(TreesimOptions& o, const std::string& format);
 
-// What is read once the trees are known: a SpeedTree file's mesh, of --skin, of INPUT, and each mesh that a file of a scene has. Refuses a model that gave a tree but has a mesh that cannot be
-// read, and options that the mesh leaves nothing to decide.
+// What is read once the trees are known: a SpeedTree file's mesh, of --skin, of INPUT, and each mesh that a file of a scene has. Refuses a model that
+// gave a tree but has a mesh that cannot be read, and options that the mesh leaves nothing to decide.
 // Throws UsageError, InputError.
 void complete_model(ShownModel&, TreesimOptions& o, const Setting&, const std::string& format);
 

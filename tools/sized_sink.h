@@ -8,7 +8,8 @@ namespace bough {
 
 constexpr double large_output = 2e9; // [B]
 
-// Returns what holds the motion in less than `format` (of treesim's) does, empty if nothing does. short_numbers: JSON's are those of floats, or rounded.
+// Returns what holds the motion in less than `format` (of treesim's) does, empty if nothing does. short_numbers: JSON's are those of floats, or
+// rounded.
 // several_fields: a frame holds more than one.
 std::string smaller_output(const std::string& format, bool short_numbers, bool several_fields);
 

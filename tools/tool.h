@@ -1,5 +1,5 @@
-// tool.h: how every tool runs: one Options struct, a function that declares its options (option_list.h), and a function that works. Help, version, threads,
-// output and notes are declared, parsed and documented once, here (exits.h, signals.h, progress.h beside it).
+// tool.h: how every tool runs: one Options struct, a function that declares its options (option_list.h), and a function that works. Help, version,
+// threads, output and notes are declared, parsed and documented once, here (exits.h, signals.h, progress.h beside it).
 #pragma once
 #include "common.h"
 #include "option_list.h"

@@ -46,7 +46,8 @@ Reports chosen_reports(const std::vector<std::string>& lists);
 
 // Throws UsageError for a name that is none.
 MotionFields chosen_fields(const TreesimOptions&);
-// jsonl, json, safetensors, obj, mdd, pc2, glb, usda or vat: --format, else by the output's ending. Throws UsageError for the ending of a format that is not written.
+// jsonl, json, safetensors, obj, mdd, pc2, glb, usda or vat: --format, else by the output's ending. Throws UsageError for the ending of a format that
+// is not written.
 std::string chosen_format(const CommonOptions&);
 inline bool is_point_cache(const std::string& format) {
     return format == "mdd" || format == "pc2";

@@ -21,13 +21,13 @@
 
 namespace bough {
 
-// Returns the tree's branches as curves, for convert(). It reads bough's own bough-splines too. Adds to `notes`, unless null, the format, and then a line
-// for each guess and repair. Throws InputError (error.h), in the words of bough's tools.
+// Returns the tree's branches as curves, for convert(). It reads bough's own bough-splines too. Adds to `notes`, unless null, the format, and then a
+// line for each guess and repair. Throws InputError (error.h), in the words of bough's tools.
 Splines import_splines(std::string_view bytes, const std::string& name, const std::string& folder = {},
                        std::vector<std::string>* notes = nullptr);
 
-// Returns the rigid bodies that `treeconvert FILE` makes without options, so that the tree moves alike. A bough-tree document is read as it is, without
-// notes.
+// Returns the rigid bodies that `treeconvert FILE` makes without options, so that the tree moves alike. A bough-tree document is read as it is,
+// without notes.
 Tree import_tree(std::string_view bytes, const std::string& name, const std::string& folder = {},
                  std::vector<std::string>* notes = nullptr);
 

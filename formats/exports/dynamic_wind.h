@@ -11,9 +11,9 @@
 // drawn, in the joint that bears it. Of a group, the turns of its joints of wood are fitted by least squares:
 //     turn = T Influence,      or, where that leaves 5 % less of their squares and does not fall towards the tip (bUseDualInfluence),
 //     turn = T (MinInfluence + (MaxInfluence - MinInfluence) max(0, (s - ShiftTop) / (1 - ShiftTop))),
-// s from 0 at the first joint of the group's branch to 1 at its last; T makes the largest of all 1, the most that the fields take. (What the plugin makes of
-// the two influences is told by no source that we know: that it goes from one to the other along the branch, and that ShiftTop moves that towards
-// the top, is what its fields' names and SpeedAssembly's page say.) A group without wood has 1: leaves turn most.
+// s from 0 at the first joint of the group's branch to 1 at its last; T makes the largest of all 1, the most that the fields take. (What the plugin
+// makes of the two influences is told by no source that we know: that it goes from one to the other along the branch, and that ShiftTop moves that
+// towards the top, is what its fields' names and SpeedAssembly's page say.) A group without wood has 1: leaves turn most.
 // A joint's group is how many branches it is away from a trunk, whatever the tree's levels say: the plugin takes a path of
 // joints of one group for a branch, so of those that leave a joint only the one that goes on its branch may have its group.
 // O(joints). Throws OutputError.

@@ -5,9 +5,9 @@
 // transforms are the drawn pose, which is also the bind pose. A joint turns about a fixed place in its parent, so the
 // animation `motion` holds rotations; keys as joint_keys.h chooses them, linear (slerp) between, the first frame at time 0. They are normalized
 // shorts where the tolerance allows (glTF 2.0, 3.11), which are half as large as floats.
-// Only a root leaves its place (root motion): its translation then has a key in every frame. Without frames there is no animation. A material a part of the skin: metallic 0, colours linear from sRGB,
-// leaves and petals double-sided. Where the tree lies so far from the origin that a float is coarser than 1e-6 of its size
-// the armature stands at the tree's first joint and the mesh is relative to it.
+// Only a root leaves its place (root motion): its translation then has a key in every frame. Without frames there is no animation. A material a part
+// of the skin: metallic 0, colours linear from sRGB, leaves and petals double-sided. Where the tree lies so far from the origin that a float is
+// coarser than 1e-6 of its size the armature stands at the tree's first joint and the mesh is relative to it.
 //
 // JSON is appended as text and numbers go out as they are made. (assimp's exporter was no choice: it wants the whole scene
 // as its own objects, one node, one channel with double keys for each joint, and puts the skinned mesh below a node.)

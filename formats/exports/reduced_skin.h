@@ -1,10 +1,10 @@
 // reduced_skin.h: a skin with fewer vertices: wood simplified, leaves thinned out.
 //
 // A piece is a leaf or petal, of a clump one of its leaves or sprays, as far as its triangles hang together, of at most 64 vertices. The
-// simplifier would take leaves away until none are left; so of the pieces of a part some are left out, evenly in their order, and the others grow about
-// where they are attached, up to twofold in length, so that their area together stays. All else is wood, which is simplified (simplified.h), to half of the vertices or the share
-// that it had. Where the simplifier leaves more, as many pieces of wood as then fit are simplified, of the largest area, and the others are left out. A piece is
-// what hangs together: a branch, as a rule. Vertices keep their UV, normals, and what moves them.
+// simplifier would take leaves away until none are left; so of the pieces of a part some are left out, evenly in their order, and the others grow
+// about where they are attached, up to twofold in length, so that their area together stays. All else is wood, which is simplified (simplified.h), to
+// half of the vertices or the share that it had. Where the simplifier leaves more, as many pieces of wood as then fit are simplified, of the largest
+// area, and the others are left out. A piece is what hangs together: a branch, as a rule. Vertices keep their UV, normals, and what moves them.
 #pragma once
 #include "lib/growth/skin.h"
 
@@ -19,8 +19,8 @@ struct ReducedSkin {
     double growth = 1;                          // [1] of the kept leaves' lengths, at most
 };
 
-// At most `most` vertices: the skin itself where it has no more. It ends above where the simplifier does with the largest piece of wood alone. Of a tree's skin in the drawn pose, whose parts
-// have vertices of their own. O(triangles log triangles), some times.
+// At most `most` vertices: the skin itself where it has no more. It ends above where the simplifier does with the largest piece of wood alone. Of a
+// tree's skin in the drawn pose, whose parts have vertices of their own. O(triangles log triangles), some times.
 ReducedSkin reduced_skin(const Skin&, const Tree&, std::size_t most);
 
 } // namespace bough

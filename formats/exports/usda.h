@@ -1,10 +1,11 @@
 // usda.h: moving meshes as USD text (.usda): skinned meshes, their skeleton, and a motion as time samples of it (UsdSkel).
 //
-// One SkelRoot, the default prim: a Skeleton whose joints are a rig's (rig.h), below each other as paths, each with a name that nothing else has, a Mesh for each part of the rig's, bound to it,
-// and UsdPreviewSurface materials, whose images stand beside the file (own_maps.h). Metres, Y up; time codes count frames from 0. restTransforms are
-// the drawn pose, bindTransforms what the joints were bound at. The SkelAnimation holds every joint's rotation in each frame, and its place: drawn, or in
-// each frame where a joint leaves its own. Where the mesh lies so far from the origin that floats are coarse (float_range.h), the
-// SkelRoot is moved there. `st` is the first set of UV, `st1` the next; `vertexColor` are colours that came with the mesh.
+// One SkelRoot, the default prim: a Skeleton whose joints are a rig's (rig.h), below each other as paths, each with a name that nothing else has, a
+// Mesh for each part of the rig's, bound to it, and UsdPreviewSurface materials, whose images stand beside the file (own_maps.h). Metres, Y up; time
+// codes count frames from 0. restTransforms are the drawn pose, bindTransforms what the joints were bound at. The SkelAnimation holds every joint's
+// rotation in each frame, and its place: drawn, or in each frame where a joint leaves its own. Where the mesh lies so far from the origin that floats
+// are coarse (float_range.h), the SkelRoot is moved there. `st` is the first set of UV, `st1` the next; `vertexColor` are colours that came with the
+// mesh.
 // (No USD library is in Debian 12. The layout is that of OpenUSD's documentation of UsdSkel, UsdGeom and UsdShade.)
 // Cost: O(joints) and 16 bytes a joint for each frame, 28 a joint that travels; all else when it is finished.
 // Errors  OutputError.

@@ -1,4 +1,5 @@
-// vat.h: a moving mesh as OpenVAT (github.com/sharpen3d/openvat): a mesh at rest, and a texture that says where each of its vertices is in each frame.
+// vat.h: a moving mesh as OpenVAT (github.com/sharpen3d/openvat): a mesh at rest, and a texture that says where each of its vertices is in each
+// frame.
 // Readers are shaders, for Unity, Unreal, Godot and three.js among others.
 //
 //   NAME.glb               the mesh at rest, one node, Y up [m]; TEXCOORD_1 of a vertex is the middle of its pixel of frame 0

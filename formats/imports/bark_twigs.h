@@ -2,8 +2,9 @@
 // is on, and of others what is farther than two radii from the bone that moves it.
 //
 // A piece is cut into at most 24 slices by the way along its edges from its thicker end, of that which is nearest to the axis of the bone
-// that moves it and that which is farthest from there (level sets, as of Verroust and Lazarus 2000). What of a slice hangs together is a node of its skeleton: the middle of its corners and
-// their mean distance from the axis through it. Along the longest way the nodes are one twig, what forks off others; none is thicker than before.
+// that moves it and that which is farthest from there (level sets, as of Verroust and Lazarus 2000). What of a slice hangs together is a node of its
+// skeleton: the middle of its corners and their mean distance from the axis through it. Along the longest way the nodes are one twig, what forks off
+// others; none is thicker than before.
 // It is wood where its longest twig is at least four times as long as thick and the piece holds between a fifth and three times the
 // volume of the wood found: cards, leaves and fruit are none.
 #pragma once

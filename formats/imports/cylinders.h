@@ -21,8 +21,8 @@ struct Cylinders {
 };
 
 // Of the children of a cylinder, those of its branch go on it, without branches those that begin within
-// its radius or a quarter of its length of its end; of several the thickest, of equally thick ones (1e-6) the one with the longest way to a tip, of equal
-// ones the first. A radius that the file does not give stays 0
+// its radius or a quarter of its length of its end; of several the thickest, of equally thick ones (1e-6) the one with the longest way to a tip, of
+// equal ones the first. A radius that the file does not give stays 0
 // (pipe_rule.h fills it). Notes count the gaps and the trunks. O(cylinders), no
 // recursion. Throws InputError with FILE:LINE for a cylinder that is its own ancestor.
 std::vector<ImportedBranch> branches_of(Cylinders&&, const std::string& name, ImportNotes&);

@@ -13,8 +13,8 @@ constexpr double pipe_slenderness = 68;
 // Fills every radius that is not above 0 (a single zero at a tip whose neighbour is known stays: a taper to a point).
 // Between known points of a branch: straight over the arc. Before the first or beyond the last known one: the rule from
 // there. On a branch without any: the rule, its scale the median over all points known; where nothing is known at all
-// the thickest trunk's base gets 1/68 of its longest way, which `radii_guessed` of the notes tells of. No filled branch is thicker than what it grows on is known to
-// be there. Radii in the unit of the points. One note, with count and the tips' radius. O(points + branches log branches).
+// the thickest trunk's base gets 1/68 of its longest way, which `radii_guessed` of the notes tells of. No filled branch is thicker than what it grows
+// on is known to be there. Radii in the unit of the points. One note, with count and the tips' radius. O(points + branches log branches).
 void fill_radii(std::vector<ImportedBranch>&, ImportNotes&);
 
 } // namespace bough

@@ -31,10 +31,10 @@ void name_absurd_scale(const Splines&, bool unit_given, ImportNotes&);
 void refuse_too_far(const Splines&, double reach, const std::string& name);
 void refuse_too_small(const Splines&, const std::string& name);
 
-// Looks for a point of a branch, a leaf or a fruit that is far from the middle of the branches' points (their medians along x, y, z). Beyond 10 000 times
-// the distance within which half of those are, it throws InputError: beside such a branch all others are without length, and what is left of the tree is a
-// slip in one number. Beyond 100 times, it adds a note. A radius that is odd (below) is refused or noted too, and a leaf or fruit refused that is larger than
-// the tree and 100 times as large as others. O(points).
+// Looks for a point of a branch, a leaf or a fruit that is far from the middle of the branches' points (their medians along x, y, z). Beyond 10 000
+// times the distance within which half of those are, it throws InputError: beside such a branch all others are without length, and what is left of
+// the tree is a slip in one number. Beyond 100 times, it adds a note. A radius that is odd (below) is refused or noted too, and a leaf or fruit
+// refused that is larger than the tree and 100 times as large as others. O(points).
 void find_outlier(const Splines&, const std::string& name, ImportNotes&);
 
 // A radius as no tree has it, the greatest of all. Refused: the wood is twice as thick as the whole tree is large, and more than 100 times

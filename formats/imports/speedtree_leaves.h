@@ -22,8 +22,9 @@ struct LeafShape {
 // Nothing for a mesh without extent in two directions.
 std::optional<LeafShape> shape_of(const Mesh&);
 
-// One leaf per reference, a twig mesh too, which imported_tree.h makes a twig. branch_of holds the branch of each reference, -1: the nearest. A reference
-// without a mesh that has a shape becomes 1 long (along y) and 0.5 wide, times Scale, with a note, as are references of Scale 0, which are left out. O(leaves).
+// One leaf per reference, a twig mesh too, which imported_tree.h makes a twig. branch_of holds the branch of each reference, -1: the nearest. A
+// reference without a mesh that has a shape becomes 1 long (along y) and 0.5 wide, times Scale, with a note, as are references of Scale 0, which are
+// left out. O(leaves).
 std::vector<ImportedLeaf> leaves_of(const File&, const std::vector<std::int32_t>& branch_of, ImportNotes&);
 
 } // namespace bough::speedtree

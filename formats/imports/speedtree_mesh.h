@@ -45,8 +45,8 @@ struct MeshFile {
 };
 
 // `world`: the world [m] from the file's own unit and axes. `bones`: of parse(), for BoneID. Throws InputError FILE:LINE: indices,
-// bones and materials out of range, points out of `within`, lists of unequal length, numbers that are not finite. O(size of the file); one object at a time is in
-// memory as text.
+// bones and materials out of range, points out of `within`, lists of unequal length, numbers that are not finite. O(size of the file); one object at
+// a time is in memory as text.
 // within: [m] where points of objects may be in the world. Those of meshes may be as far from their origin as `world` leaves below 1e15 m.
 MeshFile parse_mesh(std::string_view content, const std::string& name, const std::vector<Bone>& bones,
                     const Eigen::Affine3d& world,

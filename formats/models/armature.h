@@ -7,8 +7,8 @@
 //   - where a bone moves a vertex: an armature of its own none of whose bones moves a vertex (a topmost bone with two more in a row
 //     below it), and what else moves no vertex, nor anything below it (IK targets, controls), but for the one place
 //     below a bone that ends a chain, which is that bone's end;
-//   - where none does (no skin, or one that moves none of them, which a note says): bones that have a rigger's word in their name (ik, ctrl, ctl, control, controller, target, pole,
-//     mch), with nothing but such below them, unless all have;
+//   - where none does (no skin, or one that moves none of them, which a note says): bones that have a rigger's word in their name (ik, ctrl, ctl,
+//     control, controller, target, pole, mch), with nothing but such below them, unless all have;
 //   - a bone without anything below it that says how long it is: alone, where no bone moves a vertex; Blender's `neutral_bone`.
 // A node whose name ends in `_end`, `.end` or `nub` with nothing below it marks the end of its parent and is no bone.
 // Ends. At such a mark; else where the file states it (Blender's COLLADA); else at the bone below that starts on this
@@ -17,7 +17,8 @@
 // else along the axis as far as the bark around its start goes (bark.h), or where there is none the vertices it moves most; else as
 // long as the bone above. A bone reaches at least as far as the bones below it start.
 // Radii. Of the bark around a bone (bark.h), told from twigs that have no bones of their own and move with it; other bones by the
-// pipe rule (pipe_rule.h). The twigs are wood too (bark_twigs.h), branches beside those of the bones. Where one is more than twice as thick as where the bone before it starts, a note says so.
+// pipe rule (pipe_rule.h). The twigs are wood too (bark_twigs.h), branches beside those of the bones. Where one is more than twice as thick as where
+// the bone before it starts, a note says so.
 // Reads a ModelScene, its coordinates. O(nodes + vertices log vertices of a bone).
 #pragma once
 #include "formats/imports/bark_twigs.h"

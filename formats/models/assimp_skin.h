@@ -22,7 +22,8 @@ struct TakenSkin {
 };
 
 // Takes the bones out of the scene's meshes, whose vertices get their number and their mesh's as one more set of texture coordinates. A
-// vertex has at most four bones. Throws std::runtime_error: more than 65 536 bones or more than six sets of texture coordinates on a mesh that has any.
+// vertex has at most four bones. Throws std::runtime_error: more than 65 536 bones or more than six sets of texture coordinates on a mesh that has
+// any.
 std::vector<TakenSkin> take_skins(aiScene&);
 
 // The scene's .glb with its skins, and without that set. Throws as read_gltf and values_of do, std::runtime_error for a bone that is no node.

@@ -35,8 +35,8 @@ private:
     std::vector<DrivenModel> stand_;
 };
 
-// A .glb, as bytes, with the forests behind what it draws: a .glb of ours, "" for none. Throws InputError for a model that cannot be put beside others,
-// OutputError beyond 4 GiB.
+// A .glb, as bytes, with the forests behind what it draws: a .glb of ours, "" for none. Throws InputError for a model that cannot be put beside
+// others, OutputError beyond 4 GiB.
 std::string glb_with(const std::string& glb, std::vector<DrivenForest>&, const std::string& generator,
                      const std::string& source, const std::string& output_name);
 

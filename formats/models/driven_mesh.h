@@ -3,7 +3,8 @@
 // With the matrices M_k(f) = W G_n(f) B_k of a vertex's shares (driven_surface.h), G_n(f) where its node stands in frame f (driven_bones.h) and W the
 // file's axes in the world,
 //     p(f) = sum_k w_k M_k(f) p / sum_k w_k,   n(f) = A^-T n / |A^-T n|,   A the linear part of sum_k w_k M_k(f).
-// So it shows what a viewer shows of the .glb that DrivenModel writes. (Where a bone hangs on a node scaled unequally, G_n is exact here and only near there.)
+// So it shows what a viewer shows of the .glb that DrivenModel writes. (Where a bone hangs on a node scaled unequally, G_n is exact here and only
+// near there.)
 // Cost     O(bones + joints) a frame, O(shares) a vertex, on all threads; 40 bytes a vertex, 8 a share, 12 a triangle.
 // Errors   As DrivenBones and surface_of have them, and InputError for vertices whose drawn place is not finite or beyond a float's range.
 #pragma once
@@ -18,7 +19,8 @@ public:
     // Takes the model's document for itself: it is decoded, and no other has use of it. Notes: those of DrivenBones and of surface_of.
     DrivenMesh(const UserModel&, const Tree&, const DrivenPlace&, std::vector<std::string>& notes);
 
-    // The same model where another tree moves it, which `drawn` is not: in its drawn pose, all of its vertices. The document's nodes are looked at again.
+    // The same model where another tree moves it, which `drawn` is not: in its drawn pose, all of its vertices. The document's nodes are looked at
+    // again.
     DrivenMesh(const DrivenMesh& drawn, const UserModel&, const Tree&, const DrivenPlace&,
                std::vector<std::string>& notes);
 

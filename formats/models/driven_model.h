@@ -26,13 +26,14 @@ struct DrivenOptions {
 
 class DrivenModel {
 public:
-    // Throws InputError as DrivenBones does, and for a bone below a node scaled to nothing. Notes: theirs, animations left out, bones on nodes scaled unequally.
+    // Throws InputError as DrivenBones does, and for a bone below a node scaled to nothing. Notes: theirs, animations left out, bones on nodes scaled
+    // unequally.
     DrivenModel(UserModel, const Tree&, const DrivenOptions&, std::vector<std::string>& notes);
     void write(const MotionFrame&);
     // The .glb; once. Throws OutputError beyond 4 GiB.
     std::string finish(const std::string& output_name);
-    // In place of finish(): the motion's arrays into the document, its samplers and channels into an animation that may have others. Nodes are numbered
-    // from first_node (joined_gltf.h).
+    // In place of finish(): the motion's arrays into the document, its samplers and channels into an animation that may have others. Nodes are
+    // numbered from first_node (joined_gltf.h).
     void add_motion(nlohmann::ordered_json& animation, std::size_t first_node);
     const JointKeys& keys() const { return *keys_; } // thinned once it is finished
     std::size_t bones() const { return bone_.size(); }

@@ -34,8 +34,8 @@ struct DrivenSurface {
 
 // Of the default scene. Decodes the document's compressed arrays in place. O(bytes of the file + nodes' vertices). Notes: what is not shown
 // (colours of vertices, further texture coordinates, emission, morph targets, instances, animations), images that are no PNG or JPEG.
-// Throws NoSkinnedMesh where there are no triangles. Throws InputError (place `name`): what check_arrays refuses (gltf_check.h), arrays of other lengths than the vertices, Draco's form, more than
-// 2^31 - 1 vertices.
+// Throws NoSkinnedMesh where there are no triangles. Throws InputError (place `name`): what check_arrays refuses (gltf_check.h), arrays of other
+// lengths than the vertices, Draco's form, more than 2^31 - 1 vertices.
 DrivenSurface surface_of(GltfDocument&, const std::string& name, std::vector<std::string>& notes);
 
 } // namespace bough

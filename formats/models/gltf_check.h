@@ -6,7 +6,8 @@ namespace bough {
 
 // What must hold of meshes, skins, and the nodes that name them:
 // - a mesh has a primitive or more;
-// - POSITION is VEC3 of floats, or of any numbers where the file uses KHR_mesh_quantization: of one vertex or more, finite; indices are SCALAR of unsigned bytes, shorts or ints and name vertices that are there;
+// - POSITION is VEC3 of floats, or of any numbers where the file uses KHR_mesh_quantization: of one vertex or more, finite; indices are SCALAR of
+//   unsigned bytes, shorts or ints and name vertices that are there;
 // - JOINTS_0 and WEIGHTS_0, and so those of each other set, come together, are VEC4 (unsigned bytes or shorts; floats or
 //   normalized unsigned bytes or shorts), one for each vertex;
 // - floats in these and in all other attributes of triangles, those of morph targets among them, are finite, one for each vertex;

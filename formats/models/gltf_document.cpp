@@ -57,7 +57,8 @@ Chunks chunks_of(std::string_view content, const std::string& name) {
 constexpr std::size_t most_of_json_byte = 64;
 
 Json parsed(std::string_view text, const std::string& name) {
-    // Json's destructor takes memory of its own, and ends the program where there is none: so it is asked for beforehand. Untouched, it costs nothing.
+    // Json's destructor takes memory of its own, and ends the program where there is none: so it is asked for beforehand. Untouched, it costs
+    // nothing.
     ::operator delete(::operator new(most_of_json_byte* text.size()));
     const JsonShape shape = json_shape(text);
     if (shape.depth > deepest_json)

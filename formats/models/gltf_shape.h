@@ -1,5 +1,5 @@
-// gltf_shape.h: what kind the values of a glTF document are of that are read most (glTF 2.0, chapter 5), looked at once, so that a reader need not say it
-// of each.
+// gltf_shape.h: what kind the values of a glTF document are of that are read most (glTF 2.0, chapter 5), looked at once, so that a reader need not
+// say it of each.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>

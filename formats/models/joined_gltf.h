@@ -16,14 +16,15 @@ struct GltfStand {
 };
 
 // Draws the default scene once for each stand: nodes, skins and the animations that are there are copied, all else is shared. Node i of the document
-// is node i + k n of stand k, n the nodes that there were. What is at the scene's top hangs on the stand's node, but for skinned meshes without children:
-// their joints place them. O(stands * JSON of nodes, skins and animations). Throws std::out_of_range, Json exceptions.
+// is node i + k n of stand k, n the nodes that there were. What is at the scene's top hangs on the stand's node, but for skinned meshes without
+// children: their joints place them. O(stands * JSON of nodes, skins and animations). Throws std::out_of_range, Json exceptions.
 void draw_at(GltfDocument&, const std::vector<GltfStand>&);
 
 // Throws InputError (place `name`) for an extension that may name what joining moves, and is not known. Json exceptions.
 void require_joinable(const GltfDocument&, const std::string& name);
 
-// Puts `more` behind what `to` holds; its default scene becomes part of the other's. Its copyright is added to the other's, and its extras are kept by its name.
+// Puts `more` behind what `to` holds; its default scene becomes part of the other's. Its copyright is added to the other's, and its extras are kept
+// by its name.
 // O(JSON + bytes of more). Throws as require_joinable does; std::out_of_range.
 void join(GltfDocument& to, GltfDocument&& more, const std::string& name);
 

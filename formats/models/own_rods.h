@@ -3,7 +3,8 @@
 //
 // Every joint of ours has extras: "bough_wood", runs of bodies of wood that it holds, in the order of bodies. A run has the branch, the branch of the
 // body that carries its first body (-1: the ground), the number of points, two at least, and each point in the joint's own axes [m]: x y z and the
-// wood's radius there. From one point to the next is a body. "bough_others" says how many leaves, petals and fruit the joint holds, where it holds some.
+// wood's radius there. From one point to the next is a body. "bough_others" says how many leaves, petals and fruit the joint holds, where it holds
+// some.
 // They are relative to the joint: moved or scaled with the armature in another program, they still say where the wood is.
 #pragma once
 #include "formats/imports/imported_tree.h"

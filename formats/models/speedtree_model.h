@@ -2,8 +2,8 @@
 //
 // A vertex of an object is bound to the branch that its BoneID's bone lies along, else to that of its object's spine (or of the nearest
 // object above that has one), else to the nearest wood; where on that branch, and to which two of its pieces, wood_axes.h says. A leaf
-// reference moves with its leaf, in the order of the file (a clump bends, OwnPlace::foot); where the tree has no such leaf body at its place, with the piece of wood
-// that bears it. Its shape is the mesh it names, at the level of detail it names, else the mesh's first.
+// reference moves with its leaf, in the order of the file (a clump bends, OwnPlace::foot); where the tree has no such leaf body at its place, with
+// the piece of wood that bears it. Its shape is the mesh it names, at the level of detail it names, else the mesh's first.
 #pragma once
 #include "formats/error.h"
 #include "formats/exports/own_mesh.h"

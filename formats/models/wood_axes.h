@@ -2,8 +2,8 @@
 //
 // A vertex moves with the piece of branch that it lies beside. Across a joint its weight goes over from one piece to the next, smoothly
 // from the middle of the one to the middle of the other (3 q^2 - 2 q^3), so that the axis of the bark has no kink however the joint
-// bends: of all weights of two pieces these turn the least over a given length. At a branch's base they go over from the piece that bears it: that one alone at
-// a radius below the joint, the branch's own alone where its first piece has its middle, or three radii out if that is nearer.
+// bends: of all weights of two pieces these turn the least over a given length. At a branch's base they go over from the piece that bears it: that
+// one alone at a radius below the joint, the branch's own alone where its first piece has its middle, or three radii out if that is nearer.
 // Reads a checked Tree, its drawn pose. O(bodies log bodies), a vertex O(pieces of its branch).
 #pragma once
 #include "bone_bodies.h"

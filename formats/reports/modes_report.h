@@ -1,4 +1,5 @@
-// modes_report.h: what `treeprofile modes` writes: a table, the document "bough-modes-report" (formats/reports/README.md), CSV, and a picture of shapes.
+// modes_report.h: what `treeprofile modes` writes: a table, the document "bough-modes-report" (formats/reports/README.md), CSV, and a picture of
+// shapes.
 #pragma once
 #include "lib/study/modes.h"
 #include "report_rows.h"

@@ -1,7 +1,7 @@
 // analytic_chains.h: the analytic step's way over a block's chains of lanes, except what a joint does (analytic_joints.h). Outward it finds where the
 // bodies are and what loads them (state_update.h, external_forces.h), inward the composites (composite.h). Everything of a body is in its own axes.
-// These stages are written a second time because a row goes through them in one visit, in registers, and in axes that need no turning into the world's
-// (analytic_rows.h). tests/lib/analytic/lanes.cpp holds the two together.
+// These stages are written a second time because a row goes through them in one visit, in registers, and in axes that need no turning into the
+// world's (analytic_rows.h). tests/lib/analytic/lanes.cpp holds the two together.
 //
 // Own is the derived sweep. It has joint_rate(row, lane, theta, turn), the joint's rate in the axes of its body; joint_loaded(row, lane), called as
 // soon as the composite of the register's bodies is there, outermost first; and joints_done(), called at the end of each visit to a block.

@@ -1,7 +1,8 @@
 // wide_oscillator.h: one step of damped oscillators in closed form (base/oscillator.h), for registers of lanes.
 //
 // It is written a second time because a register has lanes of every case. So sine, cosine and exponentials are series that all lanes go through,
-// several oscillators at once, while one number takes its case and the C library's functions. tests/lib/analytic/wide_spring.cpp holds the two together.
+// several oscillators at once, while one number takes its case and the C library's functions. tests/lib/analytic/wide_spring.cpp holds the two
+// together.
 #pragma once
 #include "../lanes/wide_pair.h"
 

@@ -26,8 +26,8 @@ using Time = std::chrono::steady_clock;
 // some 5 us of its caller to wake, and some 50 to come), and short beside the slice of time that another program waits for.
 constexpr std::chrono::microseconds patience(50);
 constexpr double worth = 10e3, worth_waking = 100e3; // [ns] of work for a helper that is awake; for one that sleeps
-// Where another program wants the core of a helper, which is then taken from it against its will, helpers are no longer looking out, and woken for much
-// alone, for a while that doubles each time.
+// Where another program wants the core of a helper, which is then taken from it against its will, helpers are no longer looking out, and woken for
+// much alone, for a while that doubles each time.
 constexpr double worth_crowded = 400e3; // [ns]
 constexpr std::chrono::milliseconds ask_every(1), shortest_while(4), longest_while(64);
 

@@ -15,8 +15,8 @@
 // Cost: less than a microsecond where nobody has to be woken, some microseconds where somebody has. Allocates only when helpers are started. What is
 // done must not depend on who does it: blocks of one loop write to different places. `worker`, 0 <= worker < threads_for(...), belongs to one thread
 // at a time, for memory to work in. The loop sees what was written before it, and the code after the loop sees what the loop wrote.
-// Errors. What a block throws reaches the caller when the loop has ended: that of the first block which threw (of a backward loop any). From then on only
-// blocks before it are begun. Where no thread can be started, the caller works alone.
+// Errors. What a block throws reaches the caller when the loop has ended: that of the first block which threw (of a backward loop any). From then on
+// only blocks before it are begun. Where no thread can be started, the caller works alone.
 // A loop within a block runs on the block's thread. Several threads may run loops at once. A block runs with its caller's rounding, and treatment of
 // denormals. After a fork() the child starts helpers of its own (not from a block). When the library is unloaded, or the program ends, helpers end
 // with the block they are at.

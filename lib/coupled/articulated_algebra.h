@@ -30,7 +30,8 @@ template <class T, class S> Matrix<S> cross_left(const Vector3<T>& r, const Matr
     return m;
 }
 
-// Returns x / y by the textbook. The standard library's quotient of complex numbers scales them first, and rounds otherwise from one compiler to another.
+// Returns x / y by the textbook. The standard library's quotient of complex numbers scales them first, and rounds otherwise from one compiler to
+// another.
 template <class S> S quotient(const S& x, const S& y) {
     if constexpr (Eigen::NumTraits<S>::IsComplex) {
         const auto square = y.real() * y.real() + y.imag() * y.imag();

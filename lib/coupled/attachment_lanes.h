@@ -1,6 +1,6 @@
 // attachment_lanes.h: attachments (attachment.h) where steps are made in lanes. What they add to a body's solve waits in a row of records. The sweep
-// inward takes it from there as it takes what comes from a fork. It stands beside attachment_plain.h because numbers are read from rows and written to
-// rows here, and from arrays of bodies there; terms and ties' solve are the same functions for both (attachment.h, attachment_ties.h).
+// inward takes it from there as it takes what comes from a fork. It stands beside attachment_plain.h because numbers are read from rows and written
+// to rows here, and from arrays of bodies there; terms and ties' solve are the same functions for both (attachment.h, attachment_ties.h).
 #pragma once
 #include "coupled_tables.h"
 

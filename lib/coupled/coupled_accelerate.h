@@ -1,6 +1,6 @@
 // coupled_accelerate.h: the coupled step's second sweep outward over lanes (coupled_sweeps.h): accelerations, and with them the step's end
-// (resolvent.h). It is written a second time because the plain one goes over all bodies' arrays, while here a row's solution and motion are read once,
-// and asked for a row ahead. tests/lib/coupled/lanes.cpp holds the two together.
+// (resolvent.h). It is written a second time because the plain one goes over all bodies' arrays, while here a row's solution and motion are read
+// once, and asked for a row ahead. tests/lib/coupled/lanes.cpp holds the two together.
 //
 // Reads   solved, now, records of accelerations of the joints that chains begin on
 // Writes  next; records of accelerations of forks

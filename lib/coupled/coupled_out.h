@@ -1,8 +1,8 @@
 // coupled_out.h: the coupled step's first sweep outward over lanes (coupled_sweeps.h): where each body is half a step on (midpoint.h), and its load
 // there (body_load.h, the joint's own spring and damper).
 //
-// It is written a second time because a row goes through both stages in one visit, in registers, and what its kind and the scene lack is compiled out;
-// the plain stages each go over all bodies' arrays. tests/lib/coupled/lanes.cpp holds the two together.
+// It is written a second time because a row goes through both stages in one visit, in registers, and what its kind and the scene lack is compiled
+// out; the plain stages each go over all bodies' arrays. tests/lib/coupled/lanes.cpp holds the two together.
 // Reads   constants, now, records outward of the joints that chains begin on, the wind's profile, pulls
 // Writes  loaded; of solved rates and r, which then wait no longer in the cache than the row takes; records outward of forks
 // Cost    about 760 arithmetic instructions a row (AVX-512, gusty wind) among 1600. Errors none; what turns fast is counted and marked.

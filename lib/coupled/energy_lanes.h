@@ -6,8 +6,8 @@
 
 namespace bough::fast {
 
-// Called when the table (coupled_places.h) holds a step's motion and its start. Weighs the trees that lanes.watched marks, and scales the rates at the
-// end of those that gained energy. O(n), blocks in parallel. Allocates its working memory when it is first needed, and a bit a block.
+// Called when the table (coupled_places.h) holds a step's motion and its start. Weighs the trees that lanes.watched marks, and scales the rates at
+// the end of those that gained energy. O(n), blocks in parallel. Allocates its working memory when it is first needed, and a bit a block.
 template <class T>
 void guard_lanes(const Plan<T>&, const CoupledLanesPlan<T>&, State<T>&, CoupledLanesState<T>&, const CoupledRows<T>&);
 

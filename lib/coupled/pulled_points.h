@@ -7,11 +7,11 @@
 //   H = (1 - w) ((P.f) 1 - sym(P f^T)) + w |P| |f| (1 - (1 - n^2/2) p p^T),   p = P / |P|,  n = |p x f| / |f|
 // attachment.h derives the second part, which bounds the first whichever way f points. The first part is the true Hessian, and negative where f
 // presses. But the sweep inward has to stay positive. So w is the square of the sum over a tree of |P| |f| g, at most 1. g is how far springs and
-// inertias of the joints between there and the ground give in a step [rad/(N m)]. Where that sum is below 1, they outweigh the first part; a rod that is
-// pressed at its tip buckles at 1.2 of it. As any L does, H leaves fixed points and the second order as they are.
+// inertias of the joints between there and the ground give in a step [rad/(N m)]. Where that sum is below 1, they outweigh the first part; a rod that
+// is pressed at its tip buckles at 1.2 of it. As any L does, H leaves fixed points and the second order as they are.
 // (A twig of 0.8 mm, 0.36 m, E 5 GPa, pulled aside by 1 N at 1/30 s: without H its joints' rates are 3500 rad/s in the eighth second, with it 2e-14.
-// Branches of grown trees, pressed along themselves by up to 500 N, 125 cases: at 1/30 s up to 0.46 m/s in the twelfth second, at 1/240 s up to 0.49. It
-// was 15 m/s at 1/30 s with 1 - p p^T alone, which leaves out that f couples turns about P with turns across it.)
+// Branches of grown trees, pressed along themselves by up to 500 N, 125 cases: at 1/30 s up to 0.46 m/s in the twelfth second, at 1/240 s up to 0.49.
+// It was 15 m/s at 1/30 s with 1 - p p^T alone, which leaves out that f couples turns about P with turns across it.)
 //
 // A force that turns with its body by psi becomes, by the chart of the joints' turns,
 //   f + psi x f,   rho x f + psi x (rho x f) / 2        (the springs' own moments turn by as much the other way)

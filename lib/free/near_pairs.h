@@ -24,8 +24,9 @@ template <class T> class NearPairs {
 public:
     // Called before a step whose pairs are asked for. Notes where the bodies stand, unless that is known. Presents the state.
     void begin(const Plan<T>&, State<T>&, const Tree&, const Subtrees&);
-    // Called after the step. Returns the pairs by free body, rank and part, until the next call. ends[k]: where free body k would be at the step's end;
-    // empty: it is not looked for. Bodies without contacts are left out: free bodies at rest, trees' bodies that fell, leaves unless contact.leaves.
+    // Called after the step. Returns the pairs by free body, rank and part, until the next call. ends[k]: where free body k would be at the step's
+    // end; empty: it is not looked for. Bodies without contacts are left out: free bodies at rest, trees' bodies that fell, leaves unless
+    // contact.leaves.
     // Called again after the same step, it takes the trees as they stand after it, all the way. Presents the state.
     const std::vector<NearPair>& find(const Plan<T>&, State<T>&, const Tree&, const Contact& contact,
                                       const std::vector<FreeBody>& free,

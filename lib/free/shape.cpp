@@ -26,8 +26,8 @@ std::pair<double, double> nearest_parameters(const Capsule& p, const Capsule& q)
 
 constexpr double touching = 1e-6; // [m] gap that counts as none
 
-// The part of their ways for which two capsules stay on their sides of a plane across `normal`: no end of the one comes nearer to an end of the other along
-// it than half of what counts as touching. 0 where they are not parted by one.
+// The part of their ways for which two capsules stay on their sides of a plane across `normal`: no end of the one comes nearer to an end of the other
+// along it than half of what counts as touching. 0 where they are not parted by one.
 double apart_for(const Capsule& first, const Capsule& first_end, const Capsule& second, const Capsule& second_end,
                  const Vec3& normal) {
     double part = 1;

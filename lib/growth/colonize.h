@@ -11,8 +11,8 @@
 //     ends). Here a child counts only if it comes nearer, by a quarter of a step, to one of the points that pulled; else
 //     the node steps straight toward the nearest of them alone. So every round brings a point nearer by step / 4, and
 //     growth ends after at most points * (4 influence / step + 1) nodes.
-//   Inside. A child outside the envelope, or one whose way there has its middle outside, is not grown; the node tries the straight step likewise. Where that too leaves
-//     the envelope (across the notch of a concave one), the point waits until another node is the nearest to it; points
+//   Inside. A child outside the envelope, or one whose way there has its middle outside, is not grown; the node tries the straight step likewise.
+//     Where that too leaves the envelope (across the notch of a concave one), the point waits until another node is the nearest to it; points
 //     that still wait at the end are counted as blocked, those never within the influence radius as out of reach.
 //   Trunk. It stands below the middle of the attraction points (where that line misses the envelope, below the point
 //     nearest to it), rises straight from the ground (or the envelope's lowest level where that is deeper) and through

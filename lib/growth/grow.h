@@ -3,7 +3,8 @@
 // Parameters carry the paper's names. A stem of level n is a curve of nCurveRes segments. It is turned by nCurve, nCurveBack and nCurveV, split by
 // nSegSplits, and tapered by nTaper. It bears nBranches children by Shape, BaseSize, nDownAngle and nRotate. Angles are in degrees, lengths in metres
 // or (nLength) a fraction of the parent's length. Every random draw comes from a counter-based generator keyed by seed and stem path (random.h). So
-// the same seed gives the same bytes, and one parameter changed leaves the other draws alone. "x with x_v" below is x + x_v u with u uniform in -1..1.
+// the same seed gives the same bytes, and one parameter changed leaves the other draws alone. "x with x_v" below is x + x_v u with u uniform in
+// -1..1.
 //
 // Readings taken where the paper is open (weber_penn.h has the formulas):
 //   Curve. Segments turn where they meet: nCurveRes - 1 turns of curve / nCurveRes about the stem's x, and of up to
@@ -50,9 +51,9 @@ GrowthParameters default_growth();
 // and where the tree comes to more than 5e7 branches, leaves and fruit. O(points).
 Splines grow(const GrowthParameters&, std::uint64_t seed, const Items&);
 
-// Grows the same tree, whatever the number, which it carries along (Splines::bodies). segment() makes so many bodies of it, within a tenth from 100 on:
-// it resolves the tree by fewer (resolve.h) or cuts it more finely. Throws std::invalid_argument beyond 1 to 2e7 too, and where the tree is not to be
-// had on so few.
+// Grows the same tree, whatever the number, which it carries along (Splines::bodies). segment() makes so many bodies of it, within a tenth from 100
+// on: it resolves the tree by fewer (resolve.h) or cuts it more finely. Throws std::invalid_argument beyond 1 to 2e7 too, and where the tree is not
+// to be had on so few.
 Splines grow_bodies(const GrowthParameters&, std::uint64_t seed, const Items&, std::int64_t bodies);
 
 } // namespace bough

@@ -5,8 +5,8 @@
 //   leaves   (petals, fruit) that are resolved, as they are, on the wood that carries them;
 //   clumps   of what is not resolved and bears leaves or petals: one on each body of wood for all small side branches on it and their leaves, one for
 //            each larger side branch. A clump stands for its leaves (Tree::leaf_count) and holds the wood under them.
-// Side branches without leaves are one with the wood that carries them, and so is fruit that is not resolved. Nothing is lost: mass, centre of mass and inertia of each joint's
-// load are the whole tree's, as drawn.
+// Side branches without leaves are one with the wood that carries them, and so is fruit that is not resolved. Nothing is lost: mass, centre of mass
+// and inertia of each joint's load are the whole tree's, as drawn.
 //
 // At what frequency. What the parts of a body do where it is shaken is matched just below the whole tree's own lowest frequency, at omega
 // (flexibility.h): there a body answers as its parts together do, in force and in how that changes with the frequency, and its first modes,
@@ -29,12 +29,12 @@
 // what they carry, do not stand under their weight keeps the stiffness of its parts one after another.
 // Clumps. A clump's joint stands toward the base of what bears it, at a lever L from its centre of mass, 2 radii of gyration at most, or
 // what keeps it from drooping by more than 0.8 rad held out level. Its thicker wood hardly moves with its leaves: of its mass a share is
-// part of the wood that carries it (in the slackest crowns some of the leaves' as well). Share and L are those at which a clump swings with as much kinetic energy and brakes as much in the
-// air, at 8 m/s, as its parts (swinging() in resolve.cpp). Its centre of mass is the middle of what the air takes hold of in it: where that is further out than
-// that of all its parts, the share is as much further in.
+// part of the wood that carries it (in the slackest crowns some of the leaves' as well). Share and L are those at which a clump swings with as much
+// kinetic energy and brakes as much in the air, at 8 m/s, as its parts (swinging() in resolve.cpp). Its centre of mass is the middle of what the air
+// takes hold of in it: where that is further out than that of all its parts, the share is as much further in.
 // Air. Tree::drag gives each body the drag of its parts as they stand in horizontal winds, mean over their directions: wood that of its
-// pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold and turn), of its wood. Tree::leaf_facing is that of its
-// leaves, and wood counts as leaves that face all ways across it. Where more edges than faces point
+// pieces and of the twigs that are one with it, a clump that of its blades and, at 8 m/s (leaves fold and turn), of its wood. Tree::leaf_facing is
+// that of its leaves, and wood counts as leaves that face all ways across it. Where more edges than faces point
 // up, it is 0.
 // What comes out, in leaf: README.md beside this; held by tests/lib/growth/resolve.cpp.
 // Reads a tree of segment(). Cost O(bodies), some eighty times.

@@ -1,9 +1,9 @@
 // segment.h: makes rigid bodies of splines (§3, §10). Branches are cut into frustums by arc length and curvature. Leaves and fruit are jointed to the
 // piece that they grow on. Each body gets its mass, inertia, stiffness and damping.
 //
-// Cuts. A piece of a branch is at most `segment_length` long (by default after the rule of cut.h) and turns by at most `max_bend`. Between forced cuts
-// all pieces are equally long. Joints lie on the curve. Points nearer than `merge` to the one before are merged. A side branch's joint stays where it
-// was drawn, off the parent's axis.
+// Cuts. A piece of a branch is at most `segment_length` long (by default after the rule of cut.h) and turns by at most `max_bend`. Between forced
+// cuts all pieces are equally long. Joints lie on the curve. Points nearer than `merge` to the one before are merged. A side branch's joint stays
+// where it was drawn, off the parent's axis.
 // Stiffness. A joint's compliance is half the parent piece's and half the child piece's, integrated over the taper. At the ground, and where a side
 // branch leaves, it is the child's half alone. Bending has 1 / (E I), twist 1 / (G J). K = (kx, ky, kz).
 // Damping. beta = 2 zeta / omega, with omega the branch's own first bending frequency (branch_mode.h).

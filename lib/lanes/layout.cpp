@@ -9,8 +9,8 @@
 namespace bough::fast {
 namespace {
 
-// Tried on one core with AVX-512, in gusts, float, ns a body. A maple of 1 000 000 bodies: chains not cut, blocks of 4096 139; cut to 8 104; blocks of
-// 8192 91, of 16384 91; these figures 93. One of 100 000: 104, 99, 94, 91, 86. A stand of small trees is indifferent.
+// Tried on one core with AVX-512, in gusts, float, ns a body. A maple of 1 000 000 bodies: chains not cut, blocks of 4096 139; cut to 8 104; blocks
+// of 8192 91, of 16384 91; these figures 93. One of 100 000: 104, 99, 94, 91, 86. A stand of small trees is indifferent.
 constexpr std::size_t largest_block = 4096, largest_deep_block = 16384, smallest_block = 1024;
 constexpr std::uint32_t longest_carrying = 8, longest_bare = 16; // chains [bodies]
 constexpr std::size_t kinds = std::size_t(Kind::tuft) + 1;
@@ -238,8 +238,8 @@ private:
         block.end_row = out.rows;
     }
 
-    // First what carries other chains, the highest first; then the rest, the longest first. The order is after Hu (1961): of trees of equal tasks, none
-    // takes fewer rows. Lanes that are left empty take what fits of the rest; where most are left, the rest says how long the group is.
+    // First what carries other chains, the highest first; then the rest, the longest first. The order is after Hu (1961): of trees of equal tasks,
+    // none takes fewer rows. Lanes that are left empty take what fits of the rest; where most are left, the rest says how long the group is.
     void place_stand(Block& block, std::uint32_t first, std::uint32_t end) {
         const auto lanes = std::size_t(out.lanes);
         std::array<std::set<std::uint32_t>, kinds> carrying, bare; // chains that may be placed: what they begin on is

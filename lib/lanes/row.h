@@ -12,9 +12,9 @@ template <class T> struct alignas(64) Row {
     T lane[lanes];
 };
 
-// Gives aligned memory of zeros, in huge pages where it is large and the system gives them. A sweep goes through megabytes, and looking up small pages
-// took a third of the time that reading them did. The system gives a large array's pages, already zero, as each is first touched, to the thread that
-// does: nobody fills them here. Throws std::bad_alloc.
+// Gives aligned memory of zeros, in huge pages where it is large and the system gives them. A sweep goes through megabytes, and looking up small
+// pages took a third of the time that reading them did. The system gives a large array's pages, already zero, as each is first touched, to the thread
+// that does: nobody fills them here. Throws std::bad_alloc.
 void* allocate_rows(std::size_t bytes);
 void free_rows(void*) noexcept;
 

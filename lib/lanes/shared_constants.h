@@ -44,8 +44,8 @@ private:
     std::unordered_multimap<std::uint64_t, std::uint32_t> known_; // by hash
 };
 
-// Fills in lanes.constants as lanes.sharing asks. pad(slot) fills in a lane without a body, body(i, slot) that of body i; all is zero before. Rows that
-// are not shared are filled in by several threads.
+// Fills in lanes.constants as lanes.sharing asks. pad(slot) fills in a lane without a body, body(i, slot) that of body i; all is zero before. Rows
+// that are not shared are filled in by several threads.
 template <class T, class Pad, class Body>
 void fill_constants(PlannedLanes<T>& lanes, int quantities, const Pad& pad, const Body& body) {
     constexpr std::size_t L = Row<T>::lanes;

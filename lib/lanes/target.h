@@ -11,8 +11,9 @@ namespace bough::fast {
 enum class Target : std::uint8_t { baseline, avx2, avx512 };
 constexpr std::array<Target, 3> all_targets{Target::baseline, Target::avx2, Target::avx512};
 const char* target_name(Target); // as in --simd
-// A target that takes the place of a machine's in a plan, to count what a step computes (operations.h). It is not among all_targets: no machine is it,
-// and --simd does not name it. It steps as baseline does, bit for bit, far more slowly. It is available where bough was built with BOUGH_COUNTING.
+// A target that takes the place of a machine's in a plan, to count what a step computes (operations.h). It is not among all_targets: no machine is
+// it, and --simd does not name it. It steps as baseline does, bit for bit, far more slowly. It is available where bough was built with
+// BOUGH_COUNTING.
 constexpr Target counted_target = Target(all_targets.size());
 
 // True if it is compiled in and this machine has it.

@@ -11,7 +11,8 @@
 // and its two extreme ones counts. Plates, which will turn into the wind, are taken broadside. Pulls act at the largest of their keys, in any phase
 // with the wind. With Pose::rest gravity acts too; with Pose::settled its moment counts once, as the sag that the drawn pose lacks. What is attached
 // pushes back with a force that is not known beforehand: joints between it and the ground have an infinite estimate, so that none of them is held.
-// What swings when it pulls hard or lets go is not estimated. Two things are left out: shelter, and that a joint which rings in the gusts' own rhythm can turn by more.
+// What swings when it pulls hard or lets go is not estimated. Two things are left out: shelter, and that a joint which rings in the gusts' own rhythm
+// can turn by more.
 // How well the estimate holds (hold.h): a bare cherry of 19 642 bodies was held to 1 cm over 10 s of calm, breeze and gusty. Its tips were off by
 // 1.5, 2.0 and 4.1 mm RMS, and by 16, 32 and 149 mm at most, at ends that whip. An estimate from a trial run (study/merge_below.h) holds in that run.
 // Reads a checked tree (joined, stiffness not yet scaled by the scene). O(n), and O(depth) a pull. Errors none.

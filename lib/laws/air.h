@@ -7,8 +7,8 @@
 //   leaf, petal  |u| ((1 - s) (u.n) n + s u)           (23), first term, and the part s that needs no angle of attack
 //   clump        |u| (c_n (u.n) n + c_u u)
 // s is streaming_drag: a blade that streams with the wind still has the drag of its curled and rough surface. A clump (tree.h) has the mean of its
-// leaves' law. Of their normals m the mean of m m^T is taken for (1 - f)/3 1 + f n n^T, f its Tree::leaf_facing, n the upright: as it leans, its leaves turn about their
-// stalks. Its A is blade_mean of theirs, so that
+// leaves' law. Of their normals m the mean of m m^T is taken for (1 - f)/3 1 + f n n^T, f its Tree::leaf_facing, n the upright: as it leans, its
+// leaves turn about their stalks. Its A is blade_mean of theirs, so that
 //   c_n = f (1 - s) / blade_mean,   c_u = 1 - f (1 - s / blade_mean)
 // Where f is 0 they face all ways, and it meets the air as fruit does. The mean of its drag over all directions does not depend on f.
 // Folding. Leaves roll up and clumps close as the wind rises (Vogel, J. Exp. Bot. 40:941, 1989). Their drag goes with |u|^(2 + E), with Vogel's E
@@ -22,10 +22,10 @@
 //   cherry                           1.11    0.94    0.81    0.69     0.65
 //   maple                            1.06    0.85    0.76    0.71     0.69
 //   h                                0.97    0.89    0.79    0.70     0.67
-// Those are treegen's whole trees of seed 0, after 6 s of a wind that is the same at all heights. Narrow leaves hardly turn: a pine's needles have 1.00,
-// 0.96 and 0.76 at 4, 8 and 16 m/s, a palm's leaflets 1.00. Many of these are a tuft, a clump with h = 1.
-// The stiffness by drag (streaming_stiffness) is that of leaves that do not turn, for clumps too. With a clump's own G the error of the default step was
-// 0.90 to 1.16 times as large (oak, maple; 300 and 3 000 bodies; gusty, storm): it is not made.
+// Those are treegen's whole trees of seed 0, after 6 s of a wind that is the same at all heights. Narrow leaves hardly turn: a pine's needles have
+// 1.00, 0.96 and 0.76 at 4, 8 and 16 m/s, a palm's leaflets 1.00. Many of these are a tuft, a clump with h = 1.
+// The stiffness by drag (streaming_stiffness) is that of leaves that do not turn, for clumps too. With a clump's own G the error of the default step
+// was 0.90 to 1.16 times as large (oak, maple; 300 and 3 000 bodies; gusty, storm): it is not made.
 // The mean drag [N] in a steady wind is then, and E from 5 to 20 m/s
 //                                     5 m/s    10 m/s   20 m/s   E        of the foliage alone
 //   a leaf of 9 cm, all directions    0.0149   0.0315   0.0605   -0.99
@@ -84,8 +84,8 @@ template <class T> struct AirBody {
     Vector3<T> normal = Vector3<T>::UnitY(); // n of a clump, in the axes of u: the world's upright
 };
 
-// A blade of this width over length as it meets the air in the mean over its own motion, in which a broad one turns with the wind: a clump of one, which
-// faces its way. Other bodies are as they are.
+// A blade of this width over length as it meets the air in the mean over its own motion, in which a broad one turns with the wind: a clump of one,
+// which faces its way. Other bodies are as they are.
 template <class T> AirBody<T> streaming(const AirBody<T>& body, double proportion, const Matrix3<T>& R_wb) {
     if (!is_flat(body.kind)) return body;
     return {kind_of_many(proportion), T(blade_mean) * body.drag_area, body.mass, body.com, T(1), R_wb.col(1)};
@@ -112,7 +112,8 @@ template <class T> bool has_face(Kind kind, T facing) {
     return is_flat(kind) || (stands_for_many(kind) && facing > 0);
 }
 
-// R_wb: world from body; or, as for all that is below, the identity where u, and normal, are in the body's axes. facing, normal: of a clump (AirBody).
+// R_wb: world from body; or, as for all that is below, the identity where u, and normal, are in the body's axes. facing, normal: of a clump
+// (AirBody).
 template <class T>
 AirForce<T> air_force(Kind kind, const Matrix3<T>& R_wb, const Vector3<T>& u, T facing = 0,
                       const Vector3<T>& normal = Vector3<T>::UnitY()) {
@@ -168,8 +169,8 @@ template <class T> Matrix3<T> air_turning(Kind kind, const Matrix3<T>& R_wb, con
 
 // [N m/rad] Returns how the drag of all that a body carries, its own included, resists the body's turning where the drag pulls outward. What hangs in
 // a wind has a stiffness from drag as it has one from gravity, of the same form without its part below zero. P: first moment of kappa rho A [kg],
-// world (CoupledPlan::carried_drag). u: the air's velocity past the body, taken as that past all it carries. folds: what it carries is foliage. The result
-// is symmetric, positive semidefinite.
+// world (CoupledPlan::carried_drag). u: the air's velocity past the body, taken as that past all it carries. folds: what it carries is foliage. The
+// result is symmetric, positive semidefinite.
 template <class T> Matrix3<T> streaming_stiffness(bool folds, const Vector3<T>& P, const Vector3<T>& u) {
     const T size = P.squaredNorm(), speed = u.norm();
     if (!(size > 0)) return Matrix3<T>::Zero();

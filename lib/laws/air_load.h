@@ -1,7 +1,8 @@
 // air_load.h: all that the air does to one body: the sum of its laws (air.h, leaf_air.h). Whatever steps, guards, estimates or checks a tree takes
 // the air from here and only adds it up. The analytic step takes it in parts (parted_air.h); lanes have lanes/wide_air.h and wide_leaf.h.
 //
-// u: the wind's velocity less the body's at its centre of mass; R: world from body, or the identity where u, and AirBody::normal, are in the body's axes.
+// u: the wind's velocity less the body's at its centre of mass; R: world from body, or the identity where u, and AirBody::normal, are in the body's
+// axes.
 // The results are in the axes of u. O(1). Errors none.
 #pragma once
 #include "leaf_air.h"

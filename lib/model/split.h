@@ -1,6 +1,7 @@
 // split.h: parts of a tree as trees of their own.
 //
-// Bodies keep their order, and branch, level and s keep their values. So a selector that names a branch still names it. Reads a checked tree. Errors none.
+// Bodies keep their order, and branch, level and s keep their values. So a selector that names a branch still names it. Reads a checked tree. Errors
+// none.
 #pragma once
 #include "tree.h"
 #include <cstdint>

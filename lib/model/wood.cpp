@@ -8,9 +8,9 @@ namespace {
 
 // Green density from basic density (oven-dry mass over green volume, in units of water's): cell walls weigh 1530 kg/m^3,
 // and 60 % of the space they leave is water, as in living sapwood. Gives 800 to 970 kg/m^3 for the species below. The Wood Handbook's table of green
-// woods (FPL-GTR-282, table 4-1: water over dry wood, heartwood / sapwood) has apple 81 / 74 %, paper birch 89 / 72 and black cherry 58 / -: by the mean
-// of both the rule is 10 % light for apple and 3 % heavy for birch, and 7 % heavy for cherry's heartwood. Quaking aspen and Douglas-fir, 14 and 10 % heavy
-// by it, have the table's own water instead (with_water).
+// woods (FPL-GTR-282, table 4-1: water over dry wood, heartwood / sapwood) has apple 81 / 74 %, paper birch 89 / 72 and black cherry 58 / -: by the
+// mean of both the rule is 10 % light for apple and 3 % heavy for birch, and 7 % heavy for cherry's heartwood. Quaking aspen and Douglas-fir, 14 and
+// 10 % heavy by it, have the table's own water instead (with_water).
 double green_density(double basic) {
     return 1000 * (basic + 0.6 * (1 - basic / 1.53));
 }

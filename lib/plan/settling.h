@@ -4,11 +4,11 @@
 // from one shape by Rayleigh's quotient: the bend u that a slight tilt of gravity toward the wind gives the standing tree (sag.h):
 //   omega^2 = a sum m u.e / sum m |u|^2,   a e the tilt's acceleration
 //   omega zeta = (sum_joints beta theta^T K theta + sum_bodies u^T D u) / (2 sum m |u|^2)
-// theta is how the joints bend, D minus the derivative of the air's forces (air.h) in the mean wind of the body's height. Single leaves have their mean
-// over their own motion (streaming of air.h). u dies away as e^(-omega zeta t), or beyond critical damping as its slower root. The start is taken as
-// forgotten when u is down to a hundredth. Sway in other shapes takes longer. Measured: the tips of a run from rest beside those of a run that had gone
-// for a minute, RMS of the difference over the sway's, trees of 1 500 bodies in gusty wind: bare maple 0.05, oak and pine below 0.1, willow 0.15; in leaf
-// all below 0.05.
+// theta is how the joints bend, D minus the derivative of the air's forces (air.h) in the mean wind of the body's height. Single leaves have their
+// mean over their own motion (streaming of air.h). u dies away as e^(-omega zeta t), or beyond critical damping as its slower root. The start is
+// taken as forgotten when u is down to a hundredth. Sway in other shapes takes longer. Measured: the tips of a run from rest beside those of a run
+// that had gone for a minute, RMS of the difference over the sway's, trees of 1 500 bodies in gusty wind: bare maple 0.05, oak and pine below 0.1,
+// willow 0.15; in leaf all below 0.05.
 #pragma once
 #include "../model/scene.h"
 #include "../model/tree.h"

@@ -14,9 +14,9 @@
 // return the same report; what is read is then the state that this step left, in which numbers may be non-finite. A simulation keeps all that it
 // needs: the scene and its trees may be destroyed.
 // Threads. One thread at a time uses a simulation. Several simulations may run side by side; they share helper threads. Results do not depend on the
-// number of threads. A step takes as many threads as its work pays for: one below a thousand bodies or two, then one more for each thousand or so, up to
-// the limit. A step does not wait for a helper whose core is busy, so more threads than free cores cost next to nothing. This needs no settings, and
-// a program's own OpenMP, signals and forked children are left alone (lib/base/parallel.h).
+// number of threads. A step takes as many threads as its work pays for: one below a thousand bodies or two, then one more for each thousand or so, up
+// to the limit. A step does not wait for a helper whose core is busy, so more threads than free cores cost next to nothing. This needs no settings,
+// and a program's own OpenMP, signals and forked children are left alone (lib/base/parallel.h).
 // Frames of reference. The axes are the world's, y up; the units are metres, seconds and kilograms. Bodies stand in document order (tree.h): the
 // trees' one after another, then balls, then walkers.
 #pragma once
@@ -59,9 +59,9 @@ public:
     void begin_before(std::int64_t steps);
     // [s] How long settle() must run until the start is forgotten (plan/settling.h); 0 for a scene in which no wind blows. O(bodies).
     double settling_time() const;
-    // Takes `times` steps (0 or more, else it throws SceneError), and stops early at one that becomes non-finite. The report and events() cover all of
-    // them. A step is O(bodies). After the first few calls it allocates only where something breaks, where a body first turns so fast that its energy
-    // is watched (coupled/energy_guard.h), and where more points are pulled than ever before.
+    // Takes `times` steps (0 or more, else it throws SceneError), and stops early at one that becomes non-finite. The report and events() cover all
+    // of them. A step is O(bodies). After the first few calls it allocates only where something breaks, where a body first turns so fast that its
+    // energy is watched (coupled/energy_guard.h), and where more points are pulled than ever before.
     StepReport step(int times = 1);
 
     std::size_t bodies() const; // that are shown: of trees, balls and walkers
@@ -83,8 +83,8 @@ public:
     std::span<const Vec3> torques() const; // [N m] of springs and dampers on bodies, joint frames (option torques)
     // [Pa] that bend the wood at each joint (model/bending_stress.h; option stresses)
     std::span<const double> stresses() const;
-    // Fills in what `fields` asks for, and the events. O(bodies). Arrays need their options, as above. The caller sets the frame's number and its time,
-    // which is time(): walkers are placed by it. Returns "", or
+    // Fills in what `fields` asks for, and the events. O(bodies). Arrays need their options, as above. The caller sets the frame's number and its
+    // time, which is time(): walkers are placed by it. Returns "", or
     // "stage state_update, body N" for the first body that is non-finite. Throws SceneError for a field whose option is off.
     std::string fill(const MotionFields& fields, MotionFrame&) const;
     const MotionEvents& events() const;            // of the last call of step(): what broke, hit, landed, leapt
@@ -92,8 +92,8 @@ public:
     // The scene's balls, then its walkers as the balls that they are shown as, all as they were at the start. positions() has where they are, behind
     // the trees' bodies.
     std::vector<Ball> balls() const;
-    // Returns the tree that a mesh of the run is made of, with what breaks in it known beforehand (broken() of a copy that ran ahead): what breaks off
-    // is a root from the start, and balls() follow as fruit that are roots. Poses fit it, for bodies keep their numbers. O(bodies).
+    // Returns the tree that a mesh of the run is made of, with what breaks in it known beforehand (broken() of a copy that ran ahead): what breaks
+    // off is a root from the start, and balls() follow as fruit that are roots. Poses fit it, for bodies keep their numbers. O(bodies).
     // Throws SceneError for a body that is not there.
     Tree shown_tree(std::span<const std::uint32_t> broken) const;
     // Returns the trees drawn as they stand now, to be run again from there or to be written. With pose drawn they stay so by themselves. Stiffness
@@ -122,9 +122,10 @@ public:
     void pull(std::size_t body, const Vec3& point, const Vec3& force);
     // Attaches a hand, a rope or a prop: a spring [N/m] and a damper [N s/m] between a point [m, body frame] of any body of the trees and a target in
     // the world. The target starts where the point is now. No stiffness makes the motion grow. Returns the attachment's number, which is
-    // above 0 and which this simulation never gives twice. Any number of attachments act, from the next step on until release() or until the body breaks off. Nothing has to
-    // be asked for beforehand. A call is O(bodies) and allocates; a step with an attachment takes some microseconds more and allocates nothing for
-    // it. Saved states do not contain it. Coupled method only. Throws SceneError, also for bodies that are not there, stand still or have broken off.
+    // above 0 and which this simulation never gives twice. Any number of attachments act, from the next step on until release() or until the body
+    // breaks off. Nothing has to be asked for beforehand. A call is O(bodies) and allocates; a step with an attachment takes some microseconds more
+    // and allocates nothing for it. Saved states do not contain it. Coupled method only. Throws SceneError, also for bodies that are not there, stand
+    // still or have broken off.
     std::uint64_t attach(std::size_t body, const Vec3& point, double stiffness, double damping);
     // Moves the target evenly from where it is to `target` [m, world] in the next `steps` steps; it then stays there. With 0 steps it is there at
     // once. Allocates nothing. Throws SceneError for an attachment that is not there.

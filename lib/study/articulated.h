@@ -12,8 +12,9 @@
 //
 // h > 0 makes it linearly implicit: torque and air are those at the end of a step of h,
 //   theta_dot_1 = T (w + h w'), theta_1 = theta + h theta_dot_1, u_1 = u - h a_c,
-// with T, R, the air's damping D, what it resists turning by and a bound on how it turns plates (air.h) at the start. The joint then answers like an inertia Z = h (h + beta) R T^T K T R^T, and
-// each body has h D at its centre of mass more of mass. No step is then unstable for its springs, dampers or air's drag.
+// with T, R, the air's damping D, what it resists turning by and a bound on how it turns plates (air.h) at the start. The joint then answers like an
+// inertia Z = h (h + beta) R T^T K T R^T, and each body has h D at its centre of mass more of mass. No step is then unstable for its springs, dampers
+// or air's drag.
 //
 // Terms quadratic in omega stay explicit. What turns by more than a radian in h is not resolved by it, and would be thrown out: there,
 // and in those terms alone, omega is taken as 1 / h (h > 0 only). Counted in pass.fast.

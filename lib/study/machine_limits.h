@@ -13,8 +13,8 @@ struct MachineLimits {
     double peak_float = 0, peak_double = 0; // [1/s] operations, two a multiply-add
 };
 
-// array: [bytes] of memory that is taken for the while, at least a row (64 bytes) a thread. Throws std::bad_alloc; std::logic_error where what was read is
-// not what was written.
+// array: [bytes] of memory that is taken for the while, at least a row (64 bytes) a thread. Throws std::bad_alloc; std::logic_error where what was
+// read is not what was written.
 MachineLimits measure_limits(fast::Target, int threads, std::size_t array);
 
 // [bytes] Four times the last cache (caches.h), at least 256 MB, at most a quarter of the machine's memory.

@@ -37,8 +37,8 @@ struct ModeOptions {
 std::vector<NaturalMode> natural_modes(const SmallMotion& small, const Tree&, const Scene&, const ModeOptions&,
                                        const std::function<void(std::int64_t)>& progress = {});
 
-// Where bodies are as the mode has swung by `amplitude` [m] of its farthest end, joints turning about their axes by the shape: positions of joints and
-// rotations, world from body.
+// Where bodies are as the mode has swung by `amplitude` [m] of its farthest end, joints turning about their axes by the shape: positions of joints
+// and rotations, world from body.
 struct ShapePose {
     std::vector<Vec3> position;
     std::vector<Quat> rotation;
@@ -54,9 +54,9 @@ struct BranchMotion {
 // The `most` branches with the largest shares, falling. O(n).
 std::vector<BranchMotion> moving_branches(const SmallMotion&, const Tree&, const NaturalMode&, std::size_t most);
 
-// How a tree as a whole sways along a horizontal direction. Lanczos' method from the bend that a steady push of that direction on all of its mass gives
-// it, 24 steps, O(n) each: its values are the modes that the bend is made of, each with its share of the bend's energy. In a crown of many alike
-// branches no one mode sways; what stands out is then a band of modes, which so few steps show as one.
+// How a tree as a whole sways along a horizontal direction. Lanczos' method from the bend that a steady push of that direction on all of its mass
+// gives it, 24 steps, O(n) each: its values are the modes that the bend is made of, each with its share of the bend's energy. In a crown of many
+// alike branches no one mode sways; what stands out is then a band of modes, which so few steps show as one.
 struct Sway {
     double frequency = 0; // [Hz] of what has most of the bend
     double share = 0;     // [1] of its energy

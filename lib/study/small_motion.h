@@ -7,7 +7,8 @@
 //   S_ab = (F^T K F)_ab + 1/2 ((K theta) . (dF/dtheta [F e_b] e_a + dF/dtheta [F e_a] e_b))
 // Of gravity g on H, the first moment about joint k of all that it carries (two rotations one after the other, to second order):
 //   -g . ((phi_p + a/2) x (a x H)) = 1/2 a^T G a + a^T B phi_p,   G = (g.H) 1 - (g H^T + H g^T)/2,   B = (g.H) 1 - g H^T
-// So K couples a body with its parent alone, and is eliminated from the tips inward in 3x3 blocks, with A the sum over the children of what they pass:
+// So K couples a body with its parent alone, and is eliminated from the tips inward in 3x3 blocks, with A the sum over the children of what they
+// pass:
 //   W = S + G + A,   C = B + A,   passed to the parent: A - C^T W^-1 C,   W = L L^T
 //   a^T K a = sum |y_k|^2,   y_k = L^T (a_k + W^-1 C phi_p)
 // The tree stands where every W is positive definite. Where it does not, a branch buckles (a twig with much weight beside its axis twists over, which
@@ -29,8 +30,8 @@ constexpr const char* buckling_remedy =
 class SmallMotion {
 public:
     // Of a tree without rigid bodies, its wood as scaled by the scene, standing under gravity [m/s^2]: as drawn (Pose::drawn), else where its springs
-    // come to rest. Throws std::domain_error, naming body and branch, as start_pose, for a joint without stiffness that something hangs on, and where no
-    // pose is found in which it stands.
+    // come to rest. Throws std::domain_error, naming body and branch, as start_pose, for a joint without stiffness that something hangs on, and where
+    // no pose is found in which it stands.
     SmallMotion(const Tree&, const Vec3& gravity, Pose);
 
     // Bodies whose joint buckled, one or more a branch; empty where the tree stands as it is drawn or settled.

@@ -4,13 +4,14 @@
 // Each cell starts at rest (stability_cases.h) and is judged by
 // energy    E = kinetic (of the oscillators for the analytic step, of the bodies for all others) + elastic + potential. Never
 //           above what it was at the start plus what the air could have put in, W = sum over steps of max(0, the air's moments at the
-//           start times the joints' turns, those at the end times the same), by more than 1 % of the largest kinetic + elastic energy so far. (A jump of the ground does work
-//           that is not booked: such cells are judged without.)
+//           start times the joints' turns, those at the end times the same), by more than 1 % of the largest kinetic + elastic energy so far. (A jump
+//           of the ground does work that is not booked: such cells are judged without.)
 // growth    RMS tip deflection of the last quarter at most 1.05 times that of the third, where the load is a steady wind, damping
 //           is on and a quarter holds a period of the first mode.
 // motion    In the cases of a wind on the user's tree coupled moves as the truth does (stability_motion.h): bounded is not right.
 // A joint past 1 rad has left the method's assumption of small angles a joint: `outside`, which is said, not excused.
-// Ringing is sign changes of theta_dot a joint axis and frame, below a millionth of the largest rate left out; guards are those of StepFlags but buckling, which is physics, and joint limits, which the scene asks for.
+// Ringing is sign changes of theta_dot a joint axis and frame, below a millionth of the largest rate left out; guards are those of StepFlags but
+// buckling, which is physics, and joint limits, which the scene asks for.
 #pragma once
 #include "../plan/plan.h"
 #include "solvers.h"

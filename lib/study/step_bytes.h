@@ -11,8 +11,8 @@
 //   solved      out (streamed), or in and out; in once more. None where the block is of whole trees
 //   records     of each joint (outward, inward, accelerated): in and out
 //   indices     of rows and of chains' lanes (fork_of_row; base, landing): in with each sweep that reads them; of shared constants, once
-// A scheme of one pole, and every block is awake (sleep.h). Not counted: the energy guard's sweep, pulls, the wind's table, groups and blocks: nothing beside these,
-// or not in every step.
+// A scheme of one pole, and every block is awake (sleep.h). Not counted: the energy guard's sweep, pulls, the wind's table, groups and blocks:
+// nothing beside these, or not in every step.
 #pragma once
 #include "../coupled/coupled_tables.h"
 
@@ -29,12 +29,13 @@ struct StepBytes {
     Moved total() const;
 };
 
-// real: sizeof of the precision. streamed: `solved` goes past the caches. shared: rows of constants that there are where rows share them; 0: they do not.
+// real: sizeof of the precision. streamed: `solved` goes past the caches. shared: rows of constants that there are where rows share them; 0: they do
+// not.
 StepBytes coupled_step_bytes(const Layout&, bool wind, bool gravity, std::size_t real, bool streamed,
                              std::uint64_t shared = 0);
 
-// The analytic step's (analytic_rows.h), which changes the motion where it stands: `next` goes out and need not come in. The top is visited twice, every
-// other block once; nothing waits.
+// The analytic step's (analytic_rows.h), which changes the motion where it stands: `next` goes out and need not come in. The top is visited twice,
+// every other block once; nothing waits.
 StepBytes analytic_step_bytes(const Layout&, bool wind, bool pulls, bool gravity, std::size_t real, bool field = false,
                               std::uint64_t shared = 0);
 

@@ -17,7 +17,8 @@ struct StepCost {
     double tables = NAN; // [B] that these take
 };
 
-// Of a run of which nothing is free: it begins again, takes a step, and then up to `steps` that are counted, on this thread alone. Needs counts_steps().
+// Of a run of which nothing is free: it begins again, takes a step, and then up to `steps` that are counted, on this thread alone. Needs
+// counts_steps().
 StepCost step_cost(Simulation&, std::int64_t steps);
 bool counts_steps(); // this build does (BOUGH_COUNTING)
 

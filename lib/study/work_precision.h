@@ -13,8 +13,8 @@
 // in wind) up to a quarter of the finest run's error. Schemes of one solver share their limit, though: model is that of
 // the scheme, of those measured, whose finest run is nearest to its limit.
 // The truth is articulated_reference at a tolerance and at ten times that, or, for trees too large for it, the coupled solver
-// at 64 steps a frame and at half of that; what the second is off by from the first is reference_error. Its true error is smaller where it converges; where the motion is chaotic (leaves in strong wind), it is
-// what can be said.
+// at 64 steps a frame and at half of that; what the second is off by from the first is reference_error. Its true error is smaller where it converges;
+// where the motion is chaotic (leaves in strong wind), it is what can be said.
 // Beside the tips: the wood point by point, at the ends of its bodies, level by level, as shares of what that level's ends
 // move; leaves, and the trunk's top, by statistics (motion_statistics.h), the run's beside the truth's.
 // Frequencies and decay rates: ring_down.h; in double and up to 8 steps a frame, where they are a solver's own.

@@ -108,8 +108,8 @@ LIVE bough_result live_read_tree(const char* bytes, std::size_t size, const char
     });
 }
 
-// What a tree's bodies are, from the arrays of bough_bodies: 0 parent (i32), 1 kind (u8), 2 size (3 f64), 3 mass, 4 level (i32), of bodies; 5 each tree's first body
-// and the end (u32). *count: entries.
+// What a tree's bodies are, from the arrays of bough_bodies: 0 parent (i32), 1 kind (u8), 2 size (3 f64), 3 mass, 4 level (i32), of bodies; 5 each
+// tree's first body and the end (u32). *count: entries.
 LIVE const void* live_bodies(const bough_simulation* simulation, int which, std::size_t* count) {
     bough_bodies bodies;
     if (bough_simulation_bodies(simulation, &bodies) != BOUGH_OK) return nullptr;
