@@ -14,6 +14,7 @@
 #pragma once
 #include "growth/grow.h"
 #include "growth/segment.h"
+#include "model/append.h"
 #include "model/scene.h"
 #include "model/wood.h"
 #include "simulation/loop.h"

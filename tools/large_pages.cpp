@@ -1,6 +1,7 @@
 // large_pages.cpp: the tools' large arrays come in pages of 2 MB where the system has them. A program of a million bodies spends more time on asking
-// for pages of 4 KB than on its work: treesim took 0.8 s to its first frame with those and 0.57 s with these. It is the programs' matter, not the
+// for pages of 4 KB than on its work: treesim took 0.9 s to its first frame with those and 0.64 s with these. It is the programs' matter, not the
 // library's: a library does not replace its user's `operator new`. The address and thread sanitizers keep their own.
+// treeprofile has them as well, for it measures what treesim costs. The tables of lanes come in such pages in any program (lib/lanes/row.h).
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) // GCC's names
 #define BOUGH_OWN_ALLOCATOR
 #elif defined(__has_feature) // clang's
@@ -19,7 +20,9 @@ void* taken(std::size_t bytes) {
     constexpr std::size_t page = std::size_t(2) << 20;
     if (bytes < 2 * page || bytes > std::size_t(-1) - page) return std::malloc(bytes ? bytes : 1);
     void* const found = std::aligned_alloc(page, (bytes + page - 1) / page * page);
+#ifdef MADV_HUGEPAGE
     if (found) madvise(found, bytes, MADV_HUGEPAGE); // advice: without it all is slower, nothing else
+#endif
     return found;
 }
 

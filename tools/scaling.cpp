@@ -3,7 +3,7 @@
 #include "lib/base/caches.h"
 #include "lib/base/hash_text.h"
 #include "lib/growth/segment.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/study/machine_limits.h"
 #include "lib/study/resident.h"
 #include "lib/study/timed_steps.h"

@@ -2,7 +2,6 @@
 #include "../base/hash_text.h"
 #include "../base/parallel.h"
 #include "../base/rotation_maps.h"
-#include "../base/shortest_text.h"
 #include "../coupled/attachment.h"
 #include "../coupled/coupled_lanes_stepper.h"
 #include "../coupled/coupled_stepper.h"
@@ -22,24 +21,6 @@
 
 namespace bough {
 namespace {
-
-// value: an enum's, which a caller's cast may have made of any number.
-[[noreturn]] void refuse_option(const char* name, int value, const char* expected) {
-    throw SceneError(std::string(name) + " is " + shortest_text(value) + ", expected " + expected);
-}
-
-SimulationOptions checked(const SimulationOptions& o) {
-    if (o.precision != Precision::single && o.precision != Precision::double_)
-        refuse_option("precision", int(o.precision), "Precision::single or Precision::double_");
-    if (o.method != Method::coupled && o.method != Method::analytic)
-        refuse_option("method", int(o.method), "Method::coupled or Method::analytic");
-    if (!(o.step > 0) || !std::isfinite(o.step))
-        throw SceneError("step is " + shortest_text(o.step) + " s, expected more than 0");
-    if (!(o.sleep >= 0 && std::isfinite(o.sleep)))
-        throw SceneError("sleep is " + shortest_text(o.sleep) + " rad/s, expected 0 or more");
-    if (o.threads < 0) throw SceneError("threads is " + std::to_string(o.threads) + ", expected 0 or more");
-    return o;
-}
 
 StepChoice choice_of(const SimulationOptions& o) {
     StepChoice choice;
@@ -63,7 +44,7 @@ public:
 
     StepReport step(int times) override {
         if (!broken_.finite()) return broken_;
-        const ThreadLimit threads(options().threads);
+        const ThreadLimit threads = limit();
         const StepFlags before = run_.state.flags;
         run_.world.events = {};
         StepReport report;
@@ -91,6 +72,7 @@ public:
     }
     bool fresh() const override { return fresh_; }
     void set_back(std::int64_t steps) override {
+        const ThreadLimit threads = limit();
         present(run_.plan, run_.state);
         run_.state.step = -steps;
         restart(run_.plan, run_.state);
@@ -98,6 +80,7 @@ public:
     }
     std::string non_finite() override { return bough::non_finite(run_, assembly_->tree); }
     void begin_again() override {
+        const ThreadLimit threads = limit();
         if (run_.world.on()) {
             run_ = started();
         } else {
@@ -126,7 +109,7 @@ public:
 
     const MotionFrame& frame() override {
         if (shown_) return frame_;
-        const ThreadLimit threads(options().threads);
+        const ThreadLimit threads = limit();
         frame_.frame = run_.state.step;
         frame_.time = time();
         fill(fields_, frame_);
@@ -141,10 +124,12 @@ public:
     }
 
     Tree posed() override {
+        const ThreadLimit threads = limit();
         present(run_.plan, run_.state);
         return posed_tree(run_.plan, run_.state, assembly_->tree);
     }
     void ends(const std::vector<std::size_t>& bodies, std::vector<Vec3>& to) override {
+        const ThreadLimit threads = limit();
         present(run_.plan, run_.state);
         to.resize(bodies.size());
         for (std::size_t k = 0; k < bodies.size(); ++k) to[k] = end_position(run_.state, assembly_->tree, bodies[k]);
@@ -196,6 +181,7 @@ public:
     }
 
     void restore(const SavedState& saved) override {
+        const ThreadLimit threads = limit();
         SavedState own;
         name(own);
         const auto refuse = [](const char* field, const std::string& found, const std::string& expected) {
@@ -272,6 +258,7 @@ public:
         const Ground there = ground_of(spline, to);
         if (steps > 0) return lead_ground(spline, time(), steps * options().step, there);
         put_ground(spline, time(), there);
+        const ThreadLimit threads = limit();
         present(run_.plan, run_.state);
         bough::restart(run_.plan, run_.state);
         shown_ = false;
@@ -282,6 +269,7 @@ public:
     }
 
     std::vector<JointMotion> joints() override {
+        const ThreadLimit threads = limit();
         present(run_.plan, run_.state);
         std::vector<JointMotion> joints;
         for (std::size_t i = 0; i < run_.plan.bodies; ++i) {
@@ -293,6 +281,7 @@ public:
     }
 
     void go_on(const std::vector<JointMotion>& joints, const std::vector<std::uint8_t>& known, double time) override {
+        const ThreadLimit threads = limit();
         fresh_ = false;
         present(run_.plan, run_.state);
         CoupledState<T>& own = coupled_state(run_.state); // as it is asked for with that method alone
@@ -315,6 +304,8 @@ public:
     }
 
 private:
+    ThreadLimit limit() const { return ThreadLimit(options().threads); }
+
     template <class Other> Run<Other>* as() {
         if constexpr (std::is_same_v<Other, T>)
             return &run_;
@@ -391,9 +382,8 @@ private:
 AnyRun::AnyRun(std::shared_ptr<Assembly> of, RunChoice c) : choice_(std::move(c)), assembly_(std::move(of)) {}
 
 std::unique_ptr<AnyRun> make_run(std::shared_ptr<Assembly> of, const RunChoice& choice) {
-    const SimulationOptions o = checked(choice.options);
-    const ThreadLimit threads(o.threads);
-    if (o.precision == Precision::single) return std::make_unique<RunOf<float>>(std::move(of), choice);
+    const ThreadLimit threads(choice.options.threads);
+    if (choice.options.precision == Precision::single) return std::make_unique<RunOf<float>>(std::move(of), choice);
     return std::make_unique<RunOf<double>>(std::move(of), choice);
 }
 

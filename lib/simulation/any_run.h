@@ -87,7 +87,7 @@ protected:
     std::shared_ptr<Assembly> assembly_; // the run refers to its tree
 };
 
-// Throws SceneError.
+// choice: with options that simulation.cpp has checked. Throws SceneError.
 std::unique_ptr<AnyRun> make_run(std::shared_ptr<Assembly>, const RunChoice&);
 AnyRun& run_of(Simulation&);
 

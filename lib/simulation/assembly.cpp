@@ -1,5 +1,6 @@
 #include "assembly.h"
 #include "../base/shortest_text.h"
+#include "../model/append.h"
 #include "../model/place.h"
 #include "../model/static_load.h"
 #include "../model/wood_overrides.h"

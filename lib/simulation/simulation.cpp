@@ -22,13 +22,32 @@ template <class W> auto changing(W& wind) {
                     wind.turbulence_ahead, wind.gust_ahead);
 }
 
+// value: an enum's, which a caller's cast may have made of any number.
+[[noreturn]] void refuse_option(const char* name, int value, const char* expected) {
+    throw SceneError(std::string(name) + " is " + shortest_text(value) + ", expected " + expected);
+}
+
+void check_options(const SimulationOptions& o) {
+    if (o.precision != Precision::single && o.precision != Precision::double_)
+        refuse_option("precision", int(o.precision), "Precision::single or Precision::double_");
+    if (o.method != Method::coupled && o.method != Method::analytic)
+        refuse_option("method", int(o.method), "Method::coupled or Method::analytic");
+    if (!(o.step > 0) || !std::isfinite(o.step))
+        throw SceneError("step is " + shortest_text(o.step) + " s, expected more than 0");
+    if (!(o.sleep >= 0 && std::isfinite(o.sleep)))
+        throw SceneError("sleep is " + shortest_text(o.sleep) + " rad/s, expected 0 or more");
+    if (o.threads < 0) throw SceneError("threads is " + std::to_string(o.threads) + ", expected 0 or more");
+}
+
 } // namespace
 
 Simulation::Simulation(std::unique_ptr<AnyRun> run) : run_(std::move(run)) {}
 
 Simulation::Simulation(Scene scene, const SimulationOptions& o) {
     const ThreadLimit threads(std::max(o.threads, 0));
-    run_ = make_run(std::make_shared<Assembly>(assemble(std::move(scene))), {o});
+    auto assembly = std::make_shared<Assembly>(assemble(std::move(scene)));
+    check_options(o);
+    run_ = make_run(std::move(assembly), {o});
 }
 
 Simulation::Simulation(Scene scene, const SimulationOptions& o, const Simulation& before)
@@ -70,6 +89,7 @@ Simulation Simulation::copy() const {
 }
 
 Simulation make_simulation(std::shared_ptr<Assembly> of, const RunChoice& choice) {
+    check_options(choice.options);
     return Simulation(make_run(std::move(of), choice));
 }
 

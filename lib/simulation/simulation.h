@@ -35,7 +35,8 @@ struct RunChoice;
 
 class Simulation {
 public:
-    // Compiles the scene. The run starts with its state at time 0. O(bodies). Throws SceneError.
+    // Compiles the scene. The run starts with its state at time 0. O(bodies). Throws SceneError. The system gives a large run's tables their memory
+    // as steps first use it, so the first steps take longer than later ones.
     explicit Simulation(Scene, const SimulationOptions& = {});
     // The same, but a tree goes on with the motion of the tree of the same number in `before`, if both have the same number of bodies, connected
     // alike. This serves for what cannot change within a run: wood, trees, kinds of wind. Throws SceneError.
@@ -104,7 +105,8 @@ public:
     // wakes what sleeps.
     //
     // Changes the wind of a scene that has one (one of zero velocity is still air). Turbulence and gusts go on from where they are: at any time the
-    // velocity changes by as little as the change asks for (laws/wind.h, go_on). Velocity, turbulence, gusts and seed may change; the rest stays.
+    // velocity changes by as little as the change asks for (go_on of laws/wind_weather.h). Velocity, turbulence, gusts and seed may change; the rest
+    // stays.
     // Where trees may sleep, the wind must have no gusts and no turbulence. Throws SceneError.
     void set_wind(const Wind&);
     // Changes the gravity of a scene that has some, with the coupled method. With pose drawn the springs keep their rest pose. Throws SceneError.

@@ -1,9 +1,10 @@
-// count_allocations.h: for a test program that counts its allocations: replaces operator new and aligned_alloc (rows of lanes) of the whole program, so
-// one source alone includes it.
+// count_allocations.h: for a test program that counts its allocations: replaces operator new and calloc (rows of lanes) of the whole program, so one
+// source alone includes it.
 // The address sanitizer has an allocator of its own; with it nothing is counted.
 #pragma once
 #include <atomic>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 namespace {
@@ -27,10 +28,11 @@ void* operator new(std::size_t bytes) {
 void* operator new[](std::size_t bytes) {
     return counted(bytes);
 }
-extern "C" void* aligned_alloc(std::size_t unit, std::size_t bytes) noexcept {
+extern "C" void* calloc(std::size_t count, std::size_t size) noexcept {
     ++allocations;
-    void* p = nullptr;
-    return posix_memalign(&p, unit, bytes) == 0 ? p : nullptr;
+    if (size > 0 && count > std::size_t(-1) / size) return nullptr;
+    void* p = nullptr; // not by malloc, with which a compiler would make a call of calloc of this
+    return posix_memalign(&p, 64, count * size) == 0 ? std::memset(p, 0, count * size) : nullptr;
 }
 void operator delete(void* p) noexcept {
     std::free(p);

@@ -5,7 +5,7 @@
 #include "import_support.h"
 #include "lib/growth/segment.h"
 #include "lib/model/drawn_pose.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/model/wood.h"
 #include <filesystem>
 #include <unistd.h>

@@ -34,7 +34,7 @@ inline Vec3 field_at(const Wind& wind, double x, double z, double t) {
 
 // [m/s] At a place [m] and time [s]: undisturbed, without shelter.
 inline Vec3 wind_at(const Wind& wind, const Vec3& place, double t) {
-    return wind_profile(wind, place.y()) *
+    return wind_factor(wind, place) *
            (varies_over_ground(wind) ? field_at(wind, place.x(), place.z(), t) : wind_velocity(wind, t));
 }
 

@@ -1,7 +1,7 @@
 // USD text read back by a small reader of its own grammar: a prim's attributes as text, numbers in order. (Others read it in tests/clients.)
 #include "formats/exports/usda.h"
 #include "formats/exports/gltf_parts.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "tests/support/random_documents.h"
 #include "tests/support/skin_checks.h"
 #include <cctype>

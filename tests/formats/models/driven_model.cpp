@@ -3,7 +3,7 @@
 #include "formats/models/gltf_prune.h"
 #include "lib/growth/segment.h"
 #include "lib/model/drawn_pose.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/model/wood.h"
 #include "tests/support/gltf_reader.h"
 #include "tests/support/import_support.h"

@@ -4,7 +4,7 @@
 #include "formats/exports/gltf.h"
 #include "formats/exports/own_mover.h"
 #include "lib/model/drawn_pose.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "tests/support/gltf_reader.h"
 #include "tests/support/import_support.h"
 #include "tests/support/shown_speedtree.h"

@@ -1,6 +1,6 @@
 // Clumps as they are drawn: how many leaves, of what area, where, and that plain leaves stay as they were.
 #include "lib/growth/clump.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "tests/support/skin_checks.h"
 #include <Eigen/Eigenvalues>
 

@@ -4,7 +4,7 @@
 #include "formats/documents/tree.h"
 #include "lib/free/shown_tree.h"
 #include "lib/growth/grow.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/model/split.h"
 #include "lib/plan/reduce.h"
 #include "tests/support/hand_made.h"

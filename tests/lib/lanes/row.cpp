@@ -1,5 +1,5 @@
 // Rows are zeros though nobody fills them: new ones, more of them, and those that were written before.
-#include "lanes/row.h"
+#include "lib/lanes/row.h"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -32,7 +32,7 @@ TEST_CASE("Rows: an array of them begins as zeros, at a cache line, or at a huge
             CAPTURE(count, again);
             CHECK(rows.size() == count);
             CHECK(all_zero(rows));
-            CHECK(address(rows) % (count >= 65536 ? std::size_t(2) << 20 : 64) == 0);
+            CHECK(address(rows) % row_alignment(count * 64) == 0);
             write(rows);
             set_zero_rows(rows, count);
             CHECK(all_zero(rows));

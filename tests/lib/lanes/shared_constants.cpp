@@ -3,7 +3,7 @@
 #include "lib/lanes/shared_constants.h"
 #include "lib/analytic/analytic_rows.h"
 #include "lib/coupled/coupled_rows.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/solver_parts.h"
 #include <cstring>

@@ -1,5 +1,5 @@
 // Trees that are ahead in the wind: each moves as it does alone, begun that much later.
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "tests/support/coupled_support.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/solver_parts.h"

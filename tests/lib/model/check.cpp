@@ -1,5 +1,5 @@
 // check() of splines, trees and scenes in memory, and several trees stood in one world.
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "tests/support/random_documents.h"
 
 using namespace bough;

@@ -1,5 +1,5 @@
 #include "lib/growth/segment.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/model/scene.h"
 #include <catch2/catch.hpp>
 

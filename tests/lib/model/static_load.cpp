@@ -2,7 +2,7 @@
 #include "lib/model/static_load.h"
 #include "formats/documents/tree.h"
 #include "lib/growth/segment.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/plan/pose.h"
 #include "lib/study/solvers.h"
 #include "tests/support/inverse_dynamics.h"

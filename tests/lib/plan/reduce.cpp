@@ -2,7 +2,7 @@
 #include "lib/plan/reduce.h"
 #include "lib/laws/added_motion.h"
 #include "lib/model/drawn_pose.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/model/split.h"
 #include "lib/plan/expand.h"
 #include "lib/study/solvers.h"

@@ -1,5 +1,6 @@
 // What a run allocates once it has taken a few steps, whatever is done to it between them: nothing. (Changes of wind, gravity and wood: simulation.cpp.
 // With a sanitizer nothing is counted.)
+#include "lib/lanes/row.h"
 #include "lib/simulation/simulation.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/make_tree.h"
@@ -41,7 +42,7 @@ TEST_CASE("what is allocated is counted") {
     std::unique_ptr<double> kept;
     CHECK(allocated([&] { kept = std::make_unique<double>(1); }) == 1);
     const std::size_t before = allocations;
-    std::free(std::aligned_alloc(64, 64)); // a lane's row
+    fast::free_rows(fast::allocate_rows(64));
     CHECK(allocations - before == 1);
 }
 

@@ -1,8 +1,8 @@
 // Loops: the wind that repeats, the motion that repeats with it, and the ends of one that does not, against the run that goes on and closed forms.
 #include "lib/simulation/loop.h"
-#include "lib/laws/wind.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/simulations.h"
+#include "tests/support/wind_at.h"
 #include <map>
 #include <numbers>
 

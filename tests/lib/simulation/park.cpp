@@ -1,5 +1,5 @@
 // Many trees as one: each moves as it does alone, to the last bit, whatever stands beside it; the parts that a park is cut into.
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "lib/simulation/parts.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/sanitized.h"

@@ -1,6 +1,6 @@
 #include "lib/study/step_bytes.h"
 #include "lib/lanes/shared_constants.h"
-#include "lib/model/place.h"
+#include "lib/model/append.h"
 #include "tests/support/lanes_support.h"
 #include "tests/support/make_tree.h"
 #include "tests/support/solver_parts.h"
