@@ -1,7 +1,7 @@
 #include "stability_cases.h"
 #include "../growth/segment.h"
-#include "../model/drawn_pose.h"
 #include "../model/append.h"
+#include "../model/drawn_pose.h"
 #include "../model/wood.h"
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "formats/models/gltf_document.h"
 #include "import_support.h"
 #include "lib/growth/segment.h"
-#include "lib/model/drawn_pose.h"
 #include "lib/model/append.h"
+#include "lib/model/drawn_pose.h"
 #include "lib/model/wood.h"
 #include <filesystem>
 #include <unistd.h>

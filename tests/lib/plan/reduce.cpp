@@ -1,8 +1,8 @@
 // Trees with rigid bodies: their reduced tree against sums over bodies, closed forms, and the same tree with very stiff joints.
 #include "lib/plan/reduce.h"
 #include "lib/laws/added_motion.h"
-#include "lib/model/drawn_pose.h"
 #include "lib/model/append.h"
+#include "lib/model/drawn_pose.h"
 #include "lib/model/split.h"
 #include "lib/plan/expand.h"
 #include "lib/study/solvers.h"
