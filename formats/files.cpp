@@ -93,6 +93,9 @@ Scene read_scene(const std::string& file) {
         }
         place.tree = tree;
     }
+    // A scene written later has no /material, so that the files' own trees would come back with another wood.
+    if (document.material.any())
+        for (Placement& place : document.scene.trees) place.file.clear();
     return std::move(document.scene);
 }
 

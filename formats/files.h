@@ -36,13 +36,13 @@ Tree convert(const Splines&);
 
 Splines read_splines(const std::string& file); // a bough-splines document
 Tree read_tree(const std::string& file);       // a bough-tree document
-// Reads a bough-scene document with its trees in memory, their wood changed as it says
+// Reads a bough-scene document with its trees in memory. Where it has /material, these are no longer the files' trees, and Placement::file is empty.
 Scene read_scene(const std::string& file);
 void write_splines(const std::string& file, const Splines&);
 void write_tree(const std::string& file, const Tree&);
-// Writes a scene as a bough-scene document. Its trees stand there by name: give each place the name of a file (Placement::file, relative to the
-// document's folder), and write the tree there by write_tree. A tree that read_scene has changed by the document's /material is written as changed,
-// and the scene without /material. Throws OutputError for a place without a file.
+// Writes a scene as a bough-scene document. The scene's document names its trees' files and does not hold them. Give each place the name of a file
+// (Placement::file, relative to the document's folder), and write its tree there by write_tree. read_scene has put /material into the trees: write
+// those again under names of their own. Throws OutputError for a place without a file, and for two trees of one file.
 void write_scene(const std::string& file, const Scene&);
 SavedState read_state(const std::string& file); // as `treesim --save-state` and write_state write it
 void write_state(const std::string& file, const SavedState&);

@@ -2,6 +2,7 @@
 //
 //   grow        growth/grow.h            a tree's splines by Weber and Penn's parameters
 //   segment     growth/segment.h         splines into rigid bodies with their wood's mass, stiffness and damping
+//   append      model/append.h           several trees in one
 //   Scene       model/scene.h            what trees stand where and what acts on them
 //   Simulation  simulation/simulation.h  one run of it, step by step
 //   pick        simulation/pick.h        which body a ray meets

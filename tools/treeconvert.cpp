@@ -13,6 +13,7 @@
 #include "import_file.h"
 #include "import_stats.h"
 #include "lib/base/counted.h"
+#include "lib/base/shortest_text.h"
 #include "lib/growth/segment.h"
 #include "lib/growth/skin.h"
 #include "lib/model/drawn_pose.h"
@@ -197,10 +198,12 @@ void list_materials(const std::string& file) {
     output.finish();
 }
 
-// What segment() refuses, told of the option that asked for it. Without a name it is that there are too many bodies.
+// What segment() refuses, told of the option that asked for it. A message that begins with no field's name says that there are too many bodies.
 std::string of_option(std::string_view what) {
     using Names = std::pair<std::string_view, const char*>;
-    for (const auto& [field, option] : {Names{"max_bodies: ", "--max-bodies: "}, Names{"max_bend: ", "--max-bend: "}})
+    for (const auto& [field, option] :
+         {Names{"segment_length: ", "--segment-length: "}, Names{"max_bend: ", "--max-bend: "},
+          Names{"max_bodies: ", "--max-bodies: "}, Names{"merge: ", "merge: "}}) // no option asks for the last
         if (what.starts_with(field)) return option + std::string(what.substr(field.size()));
     return "--segment-length: " + std::string(what);
 }
@@ -209,6 +212,9 @@ SegmentOptions segment_options(const Options& o) {
     SegmentOptions options;
     if (o.segment_length) options.segment_length = *o.segment_length;
     if (o.max_bend) options.max_bend = *o.max_bend * 3.14159265358979323846 / 180;
+    if (!(options.max_bend > 0)) // segment() would tell of radians, which nobody gave
+        throw UsageError("--max-bend: is " + shortest_text(*o.max_bend) +
+                         ", expected degrees that are more than 0 in radians too");
     if (o.max_bodies) options.max_bodies = *o.max_bodies;
     return options;
 }

@@ -25,6 +25,7 @@ const Material& wood_of(const Splines& splines, const char* asked) {
     throw WrongCall("material: is '" + std::string(asked) + "', expected one of " + names);
 }
 
+// segment() holds them to the ranges that bough_c.h gives, and names the one that is out of its own.
 SegmentOptions options_of(const bough_conversion& c) {
     SegmentOptions options;
     options.segment_length = c.segment_length;

@@ -36,10 +36,10 @@ std::string beyond_floats(const MotionFrame& frame) {
                                        {"theta", &frame.theta},
                                        {"theta_dot", &frame.theta_dot}})
         for (std::size_t i = 0; i < values->size(); ++i)
-            if (const double largest = (*values)[i].cwiseAbs().maxCoeff(); largest > most)
-                return text(name, i, largest);
+            if (const Vec3 sizes = (*values)[i].cwiseAbs(); !(sizes.array() <= most).all()) // as NaN does not
+                return text(name, i, sizes.maxCoeff<Eigen::PropagateNaN>());
     for (std::size_t i = 0; i < frame.stress.size(); ++i)
-        if (const double value = std::abs(frame.stress[i]); value > most) return text("stress", i, value);
+        if (const double value = std::abs(frame.stress[i]); !(value <= most)) return text("stress", i, value);
     return "";
 }
 

@@ -1,5 +1,6 @@
 #include "scene.h"
 #include "scene_parts.h"
+#include <map>
 
 namespace bough {
 namespace {
@@ -203,6 +204,22 @@ SceneDocument read_overridden(const json& fields, const std::string& name, const
     }
 }
 
+void require_files(const Scene& scene, const std::string& name) {
+    std::map<std::string, std::size_t> known; // the first place with a tree in memory
+    for (std::size_t k = 0; k < scene.trees.size(); ++k) {
+        const Placement& place = scene.trees[k];
+        const std::string at = "/trees/" + std::to_string(k) + "/file";
+        if (place.file.empty()) // a tree that is only in memory could not be read again
+            throw OutputError(name, at + " is empty, expected the name of a file that holds the tree");
+        if (!place.tree) continue;
+        const std::size_t first = known.try_emplace(place.file, k).first->second;
+        if (scene.trees[first].tree != place.tree) // both would be read as the one that the file holds
+            throw OutputError(name, at + " is '" + place.file + "', which /trees/" + std::to_string(first) +
+                                        " names for another tree, expected a file for each tree in memory, or one "
+                                        "tree that both places share");
+    }
+}
+
 } // namespace
 
 bool is_scene(std::string_view content) {
@@ -240,10 +257,7 @@ Wind read_wind(std::string_view content, const std::string& name) {
 void write_scene(Output& output, const Scene& scene, Form form, const MaterialChange& material) {
     for (const std::optional<Defect>& defect : {check(scene), check(material)})
         if (defect) throw OutputError(output.name(), "/" + defect->field + " " + defect->message);
-    for (std::size_t k = 0; k < scene.trees.size(); ++k) // one in memory would be read no more
-        if (scene.trees[k].file.empty())
-            throw OutputError(output.name(), "/trees/" + std::to_string(k) +
-                                                 "/file is empty, expected the name of a file that holds the tree");
+    require_files(scene, output.name());
     const ordered_json fields = value_of(scene, material);
     if (form == Form::safetensors) {
         std::vector<std::pair<std::string, std::string>> metadata;

@@ -37,7 +37,7 @@ SceneDocument changed(const SceneDocument&, const std::vector<SceneOverride>&);
 Wind read_wind(std::string_view content,
                const std::string& name); // {"format": "bough-wind", "version": 1, fields of the scene's "wind"}
 std::string wind_text(const Wind&);      // as the value of a scene's "wind", JSON
-// Throws OutputError for a tree that has no file.
+// Throws OutputError for a tree that has no file, and for two trees of one file.
 void write_scene(Output&, const Scene&, Form, const MaterialChange& = {});
 
 } // namespace bough

@@ -1,7 +1,7 @@
 // own_mover.h: where the vertices of a mesh that came with the tree are in a frame, some at a time: a cache of a large mesh needs no skin of it.
 //
-// A vertex of the mesh, drawn at p, is at   sum_b weight_b (x_b + R_b R_b0^T (p - x_b0)),   b its bodies, 0 the drawn pose: what SkinDeformer (skin.h)
-// makes of skin_of(mesh), bit by bit, in its order.
+// A vertex of the mesh, drawn at p, is at   sum_b weight_b (x_b + R_b R_b0^T (p - x_b0)),   b its bodies, 0 the drawn pose: what SkinDeformer
+// (skin.h) makes of skin_of(mesh), bit by bit, in its order.
 // Cost     O(bodies) a frame and O(1) a vertex, on all threads; 24 bytes for each placed shape beside the mesh.
 #pragma once
 #include "lib/model/motion.h"

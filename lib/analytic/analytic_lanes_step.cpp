@@ -63,7 +63,7 @@ template <class T> void fill_analytic(const Plan<T>& plan, AnalyticLanesPlan<T>&
     const auto body = [&](std::size_t i, const Slot<T>& row) {
         put_body(plan, i, row);
         row.put(analytic::constant::inertia_joint, plan.inertia_joint[i]);
-        row.put(analytic::constant::bend, own.inertia_factor[i][0]); // x and y alike (plan.cpp)
+        row.put(analytic::constant::bend, own.inertia_factor[i][0]); // x and y alike (analytic_constants.cpp)
         row.put(analytic::constant::twist, own.inertia_factor[i][2]);
         if (plan.gravity) row.put(analytic::constant::gravity_row, own.gravity_row[i]);
         if (!plan.wind) return;

@@ -105,7 +105,7 @@ void hand_on(const ResolventBody<S>& q, const S& z, const Matrix3<T>& K, const V
 
 // Accelerates a body whose parent's joint, r from its own, is accelerated by alpha_p and a_p. Returns what its joint adds to alpha_p.
 template <class T, class S>
-Vector<S> accelerated(ResolventBody<S>& q, const Vector3<T>& r, const Vector<S>& alpha_p, const Vector<S>& a_p) {
+Vector<S> accelerate_joint(ResolventBody<S>& q, const Vector3<T>& r, const Vector<S>& alpha_p, const Vector<S>& a_p) {
     q.a = a_p - cross(r, alpha_p);
     const Vector<S> gamma = q.E * (q.u - q.A * alpha_p - q.B * q.a);
     q.alpha = alpha_p + gamma;

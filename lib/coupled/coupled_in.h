@@ -10,7 +10,8 @@
 //   eliminated column by column, the inverse scaled by the body's own numbers   0.98, 0.94
 //   rates kept where the last sweep reads them, at once                         10 000 0.96, 100 000 1.00
 //   terminal groups take one place in the cache                                 1.00, 0.975
-//   no solutions past the caches                                                10 000 0.81, 100 000 0.93, 1 000 000 1.45: hence coupled_tables.h's streams()
+//   no solutions past the caches                                                10 000 0.81, 100 000 0.93, 1 000 000 1.45: hence streams() of
+//                                                                               coupled_tables.h
 //   next rows asked for among the arithmetic, not all at once                   10 000 0.98, 100 000 0.94, 1 000 000 0.84
 //   what is carried, and a body's frame, in memory (step_in)                    10 000 0.92, 1 000 000 0.92
 //   own B made while E is on its way                                            10 000 0.98, 1 000 000 0.98

@@ -46,7 +46,7 @@ template <class T> void stop(const Plan<T>& plan, State<T>& state, CoupledWork<T
         const CoupledBody<T>& b = work.coupled[i];
         const ResolventBody<T>* const p = plan.parent[i] < 0 ? nullptr : &body[std::size_t(plan.parent[i])];
         const Vector3<T> none = Vector3<T>::Zero();
-        state.theta_dot[i] += b.rates * accelerated(body[i], b.r, p ? p->alpha : none, p ? p->a : none);
+        state.theta_dot[i] += b.rates * accelerate_joint(body[i], b.r, p ? p->alpha : none, p ? p->a : none);
         for (int k = 0; k < 3; ++k)
             if (work.theta_change[i][k] > 0) state.theta_dot[i][k] = 0;
     }

@@ -78,7 +78,7 @@ template <class T, class S> struct Solve {
     void accelerate(std::size_t i, const Vector<S>& alpha_p, const Vector<S>& a_p) {
         const CoupledBody<T>& b = work.coupled[i];
         ResolventBody<S>& q = body[i];
-        const Vector<S> gamma = accelerated(q, b.r, alpha_p, a_p);
+        const Vector<S> gamma = accelerate_joint(q, b.r, alpha_p, a_p);
         const Vector<S> x = b.rates.template cast<S>() * gamma;
         const Vector<S> x_v = quotient(Vector<S>(-x), p),
                         x_u = quotient(Vector<S>(h * x_v - state.theta_dot[i].template cast<S>()), p);

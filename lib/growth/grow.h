@@ -3,8 +3,8 @@
 // Parameters carry the paper's names. A stem of level n is a curve of nCurveRes segments. It is turned by nCurve, nCurveBack and nCurveV, split by
 // nSegSplits, and tapered by nTaper. It bears nBranches children by Shape, BaseSize, nDownAngle and nRotate. Angles are in degrees, lengths in metres
 // or (nLength) a fraction of the parent's length. Every random draw comes from a counter-based generator keyed by seed and stem path (random.h). So
-// the same seed gives the same bytes, and one parameter changed leaves the other draws alone. "x with x_v" below is x + x_v u with u uniform in
-// -1..1.
+// the same seed gives the same bytes, and one parameter changed leaves the other draws alone. "x with x_v" below is x + x_v u with u uniform
+// in -1..1.
 //
 // Readings taken where the paper is open (weber_penn.h has the formulas):
 //   Curve. Segments turn where they meet: nCurveRes - 1 turns of curve / nCurveRes about the stem's x, and of up to

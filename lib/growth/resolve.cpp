@@ -248,7 +248,7 @@ void Lumper::match_give() {
 }
 
 Tree Lumper::run() {
-    copy_names(tree_, whole_);
+    copy_labels(tree_, whole_);
     tree_.resize(chosen_.size());
     tree_.drag.assign(chosen_.size(), 1);
     tree_.leaf_count.assign(chosen_.size(), 1);

@@ -15,8 +15,8 @@ double grows_at_8(Kind many) {
 }
 
 // How the air meets a body, as leaves that face along `axis` by `facing` (Tree::leaf_facing). A blade faces along its normal wholly. Wood has -1,
-// where c_n + c_u of air.h is 0: as (21), the law then has no force along the axis. (No leaves have -1; those of which none faces along an axis have
-// -1/2.)
+// where c_n + c_u of air.h is 0: as (21), the law then has no force along the axis. (No leaves have -1; those of which none faces along an axis
+// have -1/2.)
 struct Face {
     Vec3 axis;
     double facing;

@@ -12,8 +12,8 @@
 //   c_n = f (1 - s) / blade_mean,   c_u = 1 - f (1 - s / blade_mean)
 // Where f is 0 they face all ways, and it meets the air as fruit does. The mean of its drag over all directions does not depend on f.
 // Folding. Leaves roll up and clumps close as the wind rises (Vogel, J. Exp. Bot. 40:941, 1989). Their drag goes with |u|^(2 + E), with Vogel's E
-// between -0.5 and -1 at 5 to 20 m/s. All of their force is multiplied by G; G is 1 for wood and fruit. Of a leaf G = g = 1 / (1 + |u| / fold_speed). g alone gives E
-// = -(1 - g); the rest comes from blades that turn with the wind. In a clump they do so unseen, so that its G is g h,
+// between -0.5 and -1 at 5 to 20 m/s. All of their force is multiplied by G; G is 1 for wood and fruit. Of a leaf G = g = 1 / (1 + |u| / fold_speed).
+// g alone gives E = -(1 - g); the rest comes from blades that turn with the wind. In a clump they do so unseen, so that its G is g h,
 //   h = p + (1 - p) / (1 + (|u| / stream_speed)^4),   p = streamed
 // which is fitted to what the leaves of whole trees have of the drag that they would have as drawn, in steady winds:
 //                                    4 m/s   6 m/s   8 m/s   12 m/s   20 m/s

@@ -3,9 +3,9 @@
 //
 // A body is at rest here when it is at rest on its tree's ground. The second part of the force is at most drag |v| with drag = kappa rho A (|u| + |u
 // at rest|) (|u_n| for branches), since || u|u - w|w| || <= (|u| + |w|) |u - w|. The part at rest falls by wind = kappa rho A |u at rest|, over the
-// speed, from rest to going with the wind. Of a clump both are c_n + c_u (air.h) times that. With the body's direction the part
-// at rest changes by at most turn = 3, 2, 1, c_u + c_n (branch, leaf, fruit, clump) times kappa rho A |u at rest|^2 a radian. Force and arm turn with it; of
-// fruit and clumps the arm alone.
+// speed, from rest to going with the wind. Of a clump both are c_n + c_u (air.h) times that. With the body's direction the part at rest changes by at
+// most turn = 3, 2, 1, c_u + c_n (branch, leaf, fruit, clump) times kappa rho A |u at rest|^2 a radian. Force and arm turn with it; of fruit and
+// clumps the arm alone.
 // With /leaves a leaf's resistance and torque (leaf_air.h) are parted likewise and add to the same bounds. To drag they add nu m and 2 k |u| over the
 // arm (and nu I, as what it is at that arm), to wind nu m, to turn twice their moments over the arm. The square of the arm,
 // AnalyticPlan::com_distance, then holds the square of the centre of mass's distance and that of the radius of gyration.

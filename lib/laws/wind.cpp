@@ -23,11 +23,6 @@ template <class T> void evaluate_wind(const Wind& wind, double t, WindTable<T>& 
     for (std::size_t k = 0; k < table.velocity.size(); ++k) table.velocity[k] = table.profile[k] * v;
 }
 
-#define BOUGH_INSTANTIATE(T)                                                                                           \
-    template WindTable<T> make_wind_table(const Wind&, double, double, const std::vector<double>&);                    \
-    template void evaluate_wind(const Wind&, double, WindTable<T>&);
-#include "../base/instantiate.inc"
-
 std::optional<Wind> wind_preset(const std::string& name) {
     struct Row {
         const char* name;
@@ -49,5 +44,10 @@ std::optional<Wind> wind_preset(const std::string& name) {
     }
     return std::nullopt;
 }
+
+#define BOUGH_INSTANTIATE(T)                                                                                           \
+    template WindTable<T> make_wind_table(const Wind&, double, double, const std::vector<double>&);                    \
+    template void evaluate_wind(const Wind&, double, WindTable<T>&);
+#include "../base/instantiate.inc"
 
 } // namespace bough

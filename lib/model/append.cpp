@@ -8,7 +8,7 @@ namespace bough {
 std::size_t append(Tree& tree, const Tree& more, const Vec3& position, double yaw) {
     const std::size_t first = tree.size_bodies(), all = first + more.size_bodies();
     const std::int32_t first_branch = first == 0 ? 0 : *std::max_element(tree.branch.begin(), tree.branch.end()) + 1;
-    if (first == 0) copy_names(tree, more);
+    if (first == 0) copy_labels(tree, more);
     const auto add = [&](const char*, const auto& absent, auto& to, const auto& from) {
         if constexpr (always_there<std::decay_t<decltype(absent)>>) {
             to.insert(to.end(), from.begin(), from.end());

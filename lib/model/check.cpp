@@ -244,11 +244,12 @@ std::optional<Defect> check(const Tree& tree) {
     const std::size_t n = tree.size_bodies();
     rules.rule(n > 0, "parent", -1, "is empty, expected at least one body");
     const auto length = [&](const char* name, const auto& absent, const auto& array) {
-        if constexpr (always_there<std::decay_t<decltype(absent)>>)
+        using Absent = std::decay_t<decltype(absent)>;
+        if constexpr (always_there<Absent>)
             rules.length(name, array, n, "one for each body");
-        else if (name == std::string_view("leaf_width"))
+        else if constexpr (std::is_same_v<Absent, AsLeafLength>)
             rules.length(name, array, tree.leaf_length.size(), "as many as /leaf_length");
-        else if (name != std::string_view("load")) // no document's
+        else if constexpr (!std::is_same_v<Absent, InNoDocument>) // a message names a document's field
             rules.length(name, array, array.empty() ? 0 : n, "none, or one for each body");
     };
     each_array(length, tree);

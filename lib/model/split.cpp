@@ -5,7 +5,7 @@
 namespace bough {
 
 Tree part_of(const Tree& tree, const std::vector<std::int32_t>& bodies) {
-    Tree part = copied(tree, bodies);
+    Tree part = bodies_of(tree, bodies);
     for (std::int32_t& parent : part.parent) {
         const auto p = std::lower_bound(bodies.begin(), bodies.end(), parent);
         parent = p != bodies.end() && *p == parent ? std::int32_t(p - bodies.begin()) : -1;

@@ -12,16 +12,16 @@ void Tree::resize(std::size_t bodies) {
     each_array(one, *this);
 }
 
-void copy_names(Tree& to, const Tree& from) {
+void copy_labels(Tree& to, const Tree& from) {
     to.name = from.name;
     to.material = from.material;
     to.source = from.source;
     to.color = from.color;
 }
 
-Tree copied(const Tree& tree, const std::vector<std::int32_t>& bodies) {
+Tree bodies_of(const Tree& tree, const std::vector<std::int32_t>& bodies) {
     Tree part;
-    copy_names(part, tree);
+    copy_labels(part, tree);
     const auto copy = [&](const char*, const auto&, auto& to, const auto& from) {
         if (from.empty()) return;
         to.reserve(bodies.size());

@@ -1,4 +1,5 @@
-// tree_arrays.h: a tree's arrays over bodies one after another, for what does the same with each: an array that is added to Tree is added here.
+// tree_arrays.h: a tree's arrays over bodies one after another, for what does the same with each. An array that is added to Tree is added
+// here: tests/lib/model/tree_arrays.cpp fails where it is not.
 #pragma once
 #include "tree.h"
 #include <type_traits>
@@ -8,6 +9,13 @@ namespace bough {
 // What stands, in the call, for the value of an array that has none by itself: it is never empty.
 struct AlwaysThere {};
 template <class Absent> constexpr bool always_there = std::is_same_v<Absent, AlwaysThere>;
+// The same for two arrays of which a body has 0 where they are empty: leaf_width, which is as long as leaf_length, and load, which no document has.
+struct AsLeafLength {
+    constexpr operator double() const { return 0; }
+};
+struct InNoDocument {
+    constexpr operator double() const { return 0; }
+};
 
 // Calls visit(name, absent, the array of each tree). absent: what a body has of an array that may be empty and is; else AlwaysThere.
 template <class Visit, class... Trees> void each_array(Visit&& visit, Trees&... tree) {
@@ -26,18 +34,18 @@ template <class Visit, class... Trees> void each_array(Visit&& visit, Trees&... 
     visit("level", there, tree.level...);
     visit("s", there, tree.s...);
     visit("rigid", std::uint8_t(0), tree.rigid...);
-    visit("load", 0.0, tree.load...);
+    visit("load", InNoDocument(), tree.load...);
     visit("leaf_count", 1, tree.leaf_count...);
     visit("leaf_length", 0.0, tree.leaf_length...);
-    visit("leaf_width", 0.0, tree.leaf_width...);
+    visit("leaf_width", AsLeafLength(), tree.leaf_width...);
     visit("leaf_facing", 0.0, tree.leaf_facing...);
     visit("drag", 1.0, tree.drag...);
 }
 
-// What a tree says of itself as a whole.
-void copy_names(Tree& to, const Tree& from);
+// Name, material, source and colours: what a tree says of itself as a whole.
+void copy_labels(Tree& to, const Tree& from);
 
-// Returns these bodies, with the tree's names; parents are those of the tree.
-Tree copied(const Tree&, const std::vector<std::int32_t>& bodies);
+// Returns these bodies, with the tree's labels; parents are those of the tree.
+Tree bodies_of(const Tree&, const std::vector<std::int32_t>& bodies);
 
 } // namespace bough

@@ -53,8 +53,9 @@ template <class Visit> void each_end(std::vector<Attached>& all, Visit&& visit) 
     }
 }
 
-// Finds the joints of all paths, rising, and each end's place in them. ends(visit) calls visit for each end. What joints have beside PathJoint is
-// nothing. touched: room for it. O(paths). Allocates if there are more than before.
+// Finds the joints of all paths, rising, and each end's place in them. ends(visit) calls visit for each end. What a joint has
+// beside PathJoint is zero afterwards. touched: room for it. O(paths). Allocates where `touched` or `joints` has too little room, so always where
+// `touched` is new.
 template <class T, class Ends, class Joint>
 void find_path_joints(const Plan<T>& plan, const Ends& ends, std::vector<std::size_t>& touched,
                       std::vector<Joint>& joints) {

@@ -45,7 +45,7 @@ void place_ranges(Reduced& r) {
 // What a leader brings along.
 void copy_leaders(const Tree& whole, Reduced& r) {
     Tree& t = r.tree;
-    t = copied(whole, r.leader);
+    t = bodies_of(whole, r.leader);
     t.rigid.clear();
     std::fill(t.load.begin(), t.load.end(), 0);
     for (std::size_t g = 0; g < r.leader.size(); ++g) {

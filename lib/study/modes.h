@@ -3,7 +3,8 @@
 // The lowest of K a = omega^2 M a (small_motion.h): gravity's gradient at the standing pose is in it. Lanczos's method (lanczos.h) on R^-T M R^-1,
 // whose largest eigenvalues 1 / omega^2 are. Of frequencies that several modes share, each turns up once those before it are taken out.
 // Damping ratio of a mode, of the shape's own motion (what damping couples it with is left out, and a shape is not bent by it):
-//   zeta = a^T D a / (2 omega a^T M a),   D = wood's K beta, and with an air the derivative of its forces at rest in the mean wind (air.h, leaf_air.h)
+//   zeta = a^T D a / (2 omega a^T M a),   D = wood's K beta, and with an air the derivative of its forces at rest in the mean wind
+//                                         (air.h, leaf_air.h)
 // Single leaves have that of their mean over their own motion in it (streaming() of air.h).
 // Effective mass along a direction: (its linear momentum)^2 over a^T M a; all modes' together are at most the tree's mass, and less by what
 // no turning of joints can move as a whole.

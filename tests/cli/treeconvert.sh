@@ -9,7 +9,7 @@ bad_input "$maple" treeconvert
 refused 1 "INPUT" treeconvert --strict
 refused 1 "--segment-length" treeconvert splines.json --segment-length -1
 refused 1 "--segment-length" treeconvert splines.json --segment-length nan
-refused 1 "--max-bend: is 0, expected radians, more than 0" treeconvert splines.json --max-bend 1e-323 # which is none in radians
+refused 1 "--max-bend: is 1e-323, expected degrees that are more than 0 in radians too" treeconvert splines.json --max-bend 1e-323
 refused 1 "--max-bodies" treeconvert splines.json --max-bodies 1
 sed 's/"bodies": *400/"bodies": 1/' splines.json >one.json
 refused 2 "/bodies: is 1, but this tree has at least" treeconvert one.json

@@ -77,6 +77,40 @@ TEST_CASE("a scene that a program made moves as before, once written and read ag
     }
 }
 
+TEST_CASE("a scene whose document changed the wood is not written as of the files that it was read from") {
+    const Folder folder;
+    write_tree(folder / "birch.json", convert(grow("birch", {.bodies = 300, .seed = 2})));
+    {
+        Output output(folder / "park.json");
+        output.write(R"({"format": "bough-scene", "version": 1, "wind": "gusty", "material": {"E": 5e9},
+            "trees": [{"file": "birch.json"}, {"file": "birch.json", "position": [3, 0, 1]}]})");
+        output.finish();
+    }
+    Scene soft = read_scene(folder / "park.json");
+    CHECK(soft.trees[0].tree == soft.trees[1].tree);
+    soft.wind = wind_preset("storm");
+    CHECK_THROWS_AS(write_scene(folder / "storm.json", soft), OutputError);
+    CHECK_THROWS_WITH(write_scene(folder / "storm.json", soft), Catch::Contains("/trees/0/file is empty, expected"));
+    write_tree(folder / "soft_birch.json", *soft.trees[0].tree);
+    for (Placement& place : soft.trees) place.file = "soft_birch.json";
+    write_scene(folder / "storm.json", soft);
+    Simulation before(soft), after(read_scene(folder / "storm.json"));
+    CHECK(run(before, 5) == run(after, 5));
+}
+
+TEST_CASE("a scene is not written where two trees have one file's name") {
+    const Folder folder;
+    Scene made = one(make_tree::branched());
+    made.add(make_tree::chain(4, 2, 0.03, 0.01), Vec3(3, 0, 1));
+    made.add(made.trees[0].tree, Vec3(6, 0, 1));
+    for (Placement& place : made.trees) place.file = "tree.json";
+    CHECK_THROWS_AS(write_scene(folder / "park.json", made), OutputError);
+    CHECK_THROWS_WITH(write_scene(folder / "park.json", made),
+                      Catch::Contains("/trees/1/file is 'tree.json', which /trees/0 names for another tree, expected"));
+    made.trees[1].file = "chain.json";
+    CHECK_NOTHROW(write_scene(folder / "park.json", made));
+}
+
 TEST_CASE("a motion file's rate is a number above 0, or 0 for that of the steps") {
     const Folder folder;
     Simulation simulation(one(make_tree::branched()));

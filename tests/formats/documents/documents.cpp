@@ -129,9 +129,34 @@ TEST_CASE("motions come back bit by bit from all three forms") {
                 for (const MotionForm form : {MotionForm::jsonl, MotionForm::json, MotionForm::safetensors}) {
                     INFO(frames << " frames of " << bodies << " bodies, form " << int(form));
                     const std::string text = motion_text(motion, form);
+                    CHECK(document_format(text) == "bough-motion");
                     CHECK(same(read_motion(text, "m"), motion));
                 }
             }
+}
+
+TEST_CASE("what of a frame no float can say is named, and what is no number") {
+    MotionFrame good;
+    good.frame = 3;
+    good.position = {Vec3(1, 2, 3), Vec3(0, -3.4e38, 0)};
+    good.theta = good.position;
+    good.stress = {1, 2};
+    CHECK(beyond_floats(good) == "");
+    const auto with = [&](const Vec3& value) {
+        MotionFrame frame = good;
+        frame.theta[1] = value;
+        return beyond_floats(frame);
+    };
+    CHECK(with({0, -1e39, 0}) ==
+          "frame 3: the theta of body 1 comes to 1e+39, expected at most 3.4e38, as a float can say");
+    CHECK(with({0, 0, INFINITY}).find("the theta of body 1 comes to inf, ") != std::string::npos);
+    for (const Vec3& value : {Vec3(1e39, NAN, 0), Vec3(0, NAN, 0), Vec3(NAN, 1e39, 0), Vec3(0, 0, NAN)})
+        CHECK(with(value).find("the theta of body 1 comes to nan, ") != std::string::npos);
+    for (const double stress : {1e39, -1e39, double(NAN)}) {
+        MotionFrame frame = good;
+        frame.stress[1] = stress;
+        CHECK(beyond_floats(frame).find("frame 3: the stress of body 1 comes to ") == 0);
+    }
 }
 
 TEST_CASE("a motion as JSON may stand on one line") {
