@@ -104,13 +104,15 @@ std::ptrdiff_t farthest_between(const Curves& curves, std::size_t c, double from
     return farthest;
 }
 
-bool all_but_closed(const Curves& curves, std::size_t c, double from, double to) {
-    return (curves.position_at(c, to) - curves.position_at(c, from)).norm() < closed * (to - from);
-}
-
 void open_loops(const Curves& curves, std::size_t c, std::vector<double>& cuts) {
+    Vec3 to = curves.position_at(c, cuts.front());
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-        if (!all_but_closed(curves, c, cuts[k], cuts[k + 1])) continue;
+        const Vec3 from = to;
+        to = curves.position_at(c, cuts[k + 1]);
+        const double x = to.x() - from.x(), y = to.y() - from.y(), z = to.z() - from.z();
+        const double chord =
+            std::sqrt(x * x + y * y + z * z); // by number: packed, it waited for what position_at had just stored
+        if (!(chord < closed * (cuts[k + 1] - cuts[k]))) continue;
         const std::ptrdiff_t i = farthest_between(curves, c, cuts[k], cuts[k + 1]);
         if (i < 0) continue;
         cuts.insert(cuts.begin() + std::ptrdiff_t(k) + 1, curves.arc[i]);
