@@ -1,4 +1,5 @@
 #include "forked.h"
+#include "lib/base/sanitizers.h"
 #include "plain_text.h"
 #include <algorithm>
 #include <atomic>
@@ -16,15 +17,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-// A sanitizer's own memory is no matter of limits.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define BOUGH_CHILD_UNLIMITED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define BOUGH_CHILD_UNLIMITED
-#endif
-#endif
 
 namespace bough {
 namespace {
@@ -76,7 +68,7 @@ Kept kept_limits(const ChildLimits& limits) {
     kept.bytes_text = kept.bytes.rlim_cur == RLIM_INFINITY ? "there is" : "ulimit -v leaves";
     if (const std::size_t taken = address_space(); kept.bytes.rlim_cur != RLIM_INFINITY)
         kept.room = std::max<std::size_t>(1, kept.bytes.rlim_cur > taken ? kept.bytes.rlim_cur - taken : 0);
-#ifndef BOUGH_CHILD_UNLIMITED
+#if !BOUGH_ADDRESS_SANITIZER && !BOUGH_THREAD_SANITIZER // whose own memory is no matter of limits
     const std::size_t most = address_space() + limits.stack + limits.bytes;
     if (limits.bytes > 0 && most <= kept.bytes.rlim_cur) {
         kept.bytes.rlim_cur = most;

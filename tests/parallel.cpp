@@ -1,6 +1,7 @@
 // parallel.h: every block once and no two at a time under one worker's number; what blocks throw; nested loops, several callers, a caller's numbers;
 // fork(), the end of the program and the library's unloading. The thread sanitizer's program, as threads.cpp, has the main function.
 #include "lib/base/parallel.h"
+#include "lib/base/sanitizers.h"
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -25,17 +26,7 @@ namespace {
 
 constexpr double much = 1e6; // [ns] of a block: worth a thread
 
-#if defined(__SANITIZE_THREAD__)
-constexpr bool forks = false;
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-constexpr bool forks = false; // a forked child may start no threads under it
-#else
-constexpr bool forks = true;
-#endif
-#else
-constexpr bool forks = true;
-#endif
+constexpr bool forks = !BOUGH_THREAD_SANITIZER; // a forked child may start no threads under it
 
 void wait_a_moment() {
     std::this_thread::sleep_for(std::chrono::microseconds(200));

@@ -2,14 +2,8 @@
 // for pages of 4 KB than on its work: treesim took 0.9 s to its first frame with those and 0.64 s with these. It is the programs' matter, not the
 // library's: a library does not replace its user's `operator new`. The address and thread sanitizers keep their own.
 // treeprofile has them as well, for it measures what treesim costs. The tables of lanes come in such pages in any program (lib/lanes/row.h).
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) // GCC's names
-#define BOUGH_OWN_ALLOCATOR
-#elif defined(__has_feature) // clang's
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define BOUGH_OWN_ALLOCATOR
-#endif
-#endif
-#if defined(__linux__) && !defined(BOUGH_OWN_ALLOCATOR)
+#include "lib/base/sanitizers.h"
+#if defined(__linux__) && !BOUGH_ADDRESS_SANITIZER && !BOUGH_THREAD_SANITIZER
 #include <cstdlib>
 #include <new>
 #include <sys/mman.h>

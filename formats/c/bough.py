@@ -483,8 +483,8 @@ def grow(species="broadleaf", bodies=0, seed=0, leaves=False, petals=False, frui
 
 def convert(splines, material=None, segment_length=0, max_bend=0.35, max_bodies=0):
     """Rigid bodies of the splines, as treeconvert. material: a preset of wood, None: the splines' own; segment_length [m]: of the longest
-    body, above 0, or 0: by the splines; max_bend [rad]: largest turn of the curve in one body, above 0; max_bodies: 1 or more, or 0: as many
-    as come. Returns a Tree."""
+    body, above 0, or 0: by the splines; max_bend [rad]: largest turn of the curve in one body, 0.001 or more; max_bodies: 1 or more, or 0:
+    as many as come. Returns a Tree."""
     if not isinstance(splines, Splines):
         raise UsageError(f"splines: is {type(splines).__name__}, expected Splines")
     conversion = _c.bough_default_conversion()

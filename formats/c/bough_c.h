@@ -82,7 +82,7 @@ typedef struct bough_conversion {
     uint64_t check;        /* leave as it is */
     const char* material;  /* preset; NULL: the splines' own (default) */
     double segment_length; /* [m] longest body, above 0; 0: by the splines (default) */
-    double max_bend;       /* [rad] largest turn of the curve in one body, above 0; default 0.35 */
+    double max_bend;       /* [rad] largest turn of the curve in one body, 0.001 or more; default 0.35 */
     int64_t max_bodies;    /* 1 or more; 0: as many as come (default) */
 } bough_conversion;
 bough_conversion bough_default_conversion(void);

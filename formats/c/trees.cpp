@@ -2,6 +2,7 @@
 #include "formats/documents/tree.h"
 #include "formats/files.h"
 #include "handle.h"
+#include "lib/base/shortest_text.h"
 #include "write.h"
 
 using namespace bough;
@@ -25,8 +26,10 @@ const Material& wood_of(const Splines& splines, const char* asked) {
     throw WrongCall("material: is '" + std::string(asked) + "', expected one of " + names);
 }
 
-// segment() holds them to the ranges that bough_c.h gives, and names the one that is out of its own.
+// segment() holds the others to the ranges that bough_c.h gives, and names the one that is out of its own.
 SegmentOptions options_of(const bough_conversion& c) {
+    if (!(c.max_bend >= 1e-3))
+        throw WrongCall("max_bend: is " + shortest_text(c.max_bend) + ", expected radians, 0.001 or more");
     SegmentOptions options;
     options.segment_length = c.segment_length;
     options.max_bend = c.max_bend;

@@ -1,4 +1,5 @@
 #include "row.h"
+#include "../base/sanitizers.h"
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -6,18 +7,9 @@
 #include <sys/mman.h>
 #endif
 
-// The address sanitizer sees what is written beyond a block only where the block ends with its rows.
-#if defined(__SANITIZE_ADDRESS__)
-#define BOUGH_EXACT_ROWS
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define BOUGH_EXACT_ROWS
-#endif
-#endif
-
 namespace bough::fast {
 
-#ifdef BOUGH_EXACT_ROWS
+#if BOUGH_ADDRESS_SANITIZER // which sees what is written beyond a block only where the block ends with its rows
 void* allocate_rows(std::size_t bytes) {
     void* const rows = std::aligned_alloc(row_alignment(bytes), (bytes + 63) / 64 * 64);
     if (!rows) throw std::bad_alloc();
@@ -48,7 +40,7 @@ void free_rows(void* rows) noexcept {
 #endif
 
 std::size_t row_alignment([[maybe_unused]] std::size_t bytes) {
-#if defined(MADV_HUGEPAGE) && !defined(BOUGH_EXACT_ROWS)
+#if defined(MADV_HUGEPAGE) && !BOUGH_ADDRESS_SANITIZER
     if (bytes >= 2 * huge_page) return huge_page;
 #endif
     return 64;

@@ -276,7 +276,8 @@ TEST_CASE("numbers out of range are refused with the number") {
     refused(converting([](auto& c) { c.segment_length = not_a_number; }), BOUGH_USAGE, "segment_length: is nan");
     refused(converting([](auto& c) { c.segment_length = -1; }), BOUGH_USAGE, "segment_length: is -1");
     refused(converting([](auto& c) { c.segment_length = 1e-300; }), BOUGH_USAGE, "");
-    refused(converting([](auto& c) { c.max_bend = 0; }), BOUGH_USAGE, "max_bend: is 0");
+    for (const double bend : {0.0, 9e-4, not_a_number})
+        refused(converting([=](auto& c) { c.max_bend = bend; }), BOUGH_USAGE, "expected radians, 0.001 or more");
     refused(converting([](auto& c) { c.max_bodies = -3; }), BOUGH_USAGE, "max_bodies: is -3");
     const auto running = [&](auto change) {
         bough_settings s = bough_default_settings();
